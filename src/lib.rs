@@ -1,0 +1,1 @@
+//! Critical speed of cable-driven parallel robots.
