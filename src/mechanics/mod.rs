@@ -1,0 +1,13 @@
+//! The cable and the platform: material, element, statics, quasi-static motion, linearisation.
+
+mod element;
+mod linearisation;
+mod material;
+mod motion;
+mod statics;
+
+pub use element::{Block, elastic, flow_stiffness, mass, transfer};
+pub use linearisation::{Chain, Element, Hub, Vibration};
+pub use material::Material;
+pub use motion::{LengthRates, length_rates};
+pub use statics::{CableShape, Failure, Infeasible, Statics, StaticsError, solve};

@@ -1,0 +1,458 @@
+//! Static equilibrium with sag: the shape of every cable and its unstretched length at a pose.
+//!
+//! With `t_k` the force of element k, pointing away from the platform, t_{k+1} = `t_k` + (0, μ g l): a cable's whole
+//! shape follows from (t₀, L) with no unknowns along the mesh. A prescribed cable has three unknowns (t₀, L) and
+//! three equations (it ends at its anchor, its tension at the platform is given). The two equilibrium cables
+//! together have six (both ends, force balance of the platform).
+//!
+//! Several shapes may satisfy the equations. The one wanted is the *taut* one: it grows out of the straight,
+//! weightless cables as the cables' weight is turned on. Newton's method tries full weight at once; the sign of
+//! the Jacobian's determinant, which changes only where the taut shape meets a slack one, tells whether it found
+//! the right one. If not, the weight is turned on in steps. docs/theory.md section 4 has the argument.
+
+use nalgebra::{Const, OMatrix, SVector, ToTypenum};
+use num_dual::{DualNum, DualSVec64, jacobian};
+
+use crate::mechanics::Material;
+use crate::robot::{Robot, TensionLaw, Vec2};
+
+/// The platform is "at" an anchor when nearer than this, in metres.
+const AT_ANCHOR: f64 = 1e-9;
+/// Newton's method gives up after this many steps; it needs 5 from a straight line.
+const NEWTON_STEPS: usize = 40;
+/// The smallest step of the cables' weight, as a part of the whole.
+const SMALLEST_STEP: f64 = 1e-7;
+/// At most this many steps of the weight.
+const WEIGHT_STEPS: usize = 2000;
+
+/// The static shape of one cable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CableShape {
+    /// The force t₀ of the element at the platform, on the platform's side, in newtons.
+    pub t0: Vec2,
+    /// The unstretched length L, in metres.
+    pub length: f64,
+    /// Positions of the n + 1 nodes from the platform to the winch, in metres.
+    pub nodes: Vec<Vec2>,
+    /// Forces `t_k` of the n elements, pointing away from the platform, in newtons.
+    pub forces: Vec<Vec2>,
+    /// |t₀ − (0, μ g l/2)|, in newtons.
+    pub tension_at_platform: f64,
+    /// |t_{n−1} + (0, μ g l/2)|, in newtons.
+    pub tension_at_winch: f64,
+}
+
+/// The robot at rest at a pose: every cable's shape.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statics {
+    /// The platform's position, in metres.
+    pub position: Vec2,
+    /// One shape per cable, in the robot's order.
+    pub cables: Vec<CableShape>,
+}
+
+/// Why a pose has no taut equilibrium. Cables are 0-based here and told 1-based.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Infeasible {
+    /// The platform sits on a winch point.
+    #[error("the platform is at the winch of cable {}", cable + 1)]
+    AtAnchor {
+        /// The cable.
+        cable: usize,
+    },
+    /// A tension law gives no positive tension here.
+    #[error("the tension law of cable {} gives {tension:.3} N here; a cable can only pull", cable + 1)]
+    NoTension {
+        /// The cable.
+        cable: usize,
+        /// The law's value, in newtons.
+        tension: f64,
+    },
+    /// The prescribed tension cannot carry the cable's own weight over this span.
+    #[error("cable {} cannot hold its own weight over this span with {tension:.1} N at the platform", cable + 1)]
+    TooSlack {
+        /// The cable.
+        cable: usize,
+        /// The prescribed tension, in newtons.
+        tension: f64,
+    },
+    /// An equilibrium cable would have to push.
+    #[error("cable {} would have to push ({:.1} N along its line)", cable + 1, -tension)]
+    WouldPush {
+        /// The cable.
+        cable: usize,
+        /// The tension of its straight line in the platform's balance, in newtons: not positive.
+        tension: f64,
+    },
+    /// The two equilibrium cables pull along one line and cannot balance the platform.
+    #[error("cables {} and {} pull along one line here, so they cannot hold the platform", cables[0] + 1, cables[1] + 1)]
+    OneLine {
+        /// The two cables.
+        cables: [usize; 2],
+    },
+    /// The equilibrium cables cannot carry their own weight here.
+    #[error("cable {} would go slack under its own weight", cable + 1)]
+    GoesSlack {
+        /// The one of them with the smaller tension.
+        cable: usize,
+    },
+}
+
+/// Why there are no statics at a pose.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum StaticsError {
+    /// No taut equilibrium exists.
+    #[error(transparent)]
+    Infeasible(#[from] Infeasible),
+    /// An equilibrium may exist but was not found.
+    #[error("the static shape of cable {} could not be computed", cable + 1)]
+    NotConverged {
+        /// The cable, 0-based.
+        cable: usize,
+    },
+}
+
+impl StaticsError {
+    /// The cable to blame, 0-based.
+    pub fn cable(&self) -> usize {
+        match *self {
+            Self::NotConverged { cable } => cable,
+            Self::Infeasible(reason) => match reason {
+                Infeasible::AtAnchor { cable }
+                | Infeasible::NoTension { cable, .. }
+                | Infeasible::TooSlack { cable, .. }
+                | Infeasible::WouldPush { cable, .. }
+                | Infeasible::GoesSlack { cable } => cable,
+                Infeasible::OneLine { cables } => cables[0],
+            },
+        }
+    }
+}
+
+/// Statics that failed, with the shapes that could be found all the same.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{reason}")]
+pub struct Failure {
+    /// Why.
+    pub reason: StaticsError,
+    /// The shapes of those cables that have one.
+    pub cables: Vec<Option<CableShape>>,
+}
+
+/// Static equilibrium of `robot` with its platform at `position`.
+///
+/// Ends meet anchors and forces balance to rounding. The result depends on nothing but the arguments.
+///
+/// # Errors
+/// [`Infeasible`] with the reason and the cable; `NotConverged` where an iteration failed.
+pub fn solve(robot: &Robot, position: Vec2) -> Result<Statics, Failure> {
+    let cable = CableModel::of(robot);
+    let mut shapes: Vec<Option<CableShape>> = vec![None; robot.cables.len()];
+    // Every cable that has a shape gets one, so that as much as possible can be drawn; the first fault counts.
+    let mut fault = None;
+    for i in robot.prescribed() {
+        match prescribed(robot, i, position) {
+            Ok((t0, length)) => shapes[i] = Some(cable.shape(position, t0, length)),
+            Err(reason) => fault = fault.or(Some(reason)),
+        }
+    }
+    let reason = match fault {
+        Some(reason) => reason,
+        None => match pair(robot, position, load(robot, shapes.iter().flatten())) {
+            Ok(ends) => {
+                for (i, (t0, length)) in robot.pair().into_iter().zip(ends) {
+                    shapes[i] = Some(cable.shape(position, t0, length));
+                }
+                let cables = shapes.into_iter().flatten().collect();
+                return Ok(Statics { position, cables });
+            }
+            Err(reason) => reason,
+        },
+    };
+    Err(Failure { reason, cables: shapes })
+}
+
+/// What the equilibrium cables have to balance: minus the platform's weight and the prescribed cables' forces.
+fn load<'a>(robot: &Robot, prescribed: impl Iterator<Item = &'a CableShape>) -> Vec2 {
+    let cable = CableModel::of(robot);
+    let own_weight = Vec2::new(0.0, robot.platform_mass * robot.gravity);
+    prescribed
+        .fold(own_weight, |load, shape| load - Vec2::from(cable.platform_force([shape.t0.x, shape.t0.y], shape.length)))
+}
+
+/// What a cable's shape depends on besides (t₀, L).
+#[derive(Clone, Copy)]
+pub(super) struct CableModel {
+    material: Material,
+    elements: usize,
+    /// Weight per unstretched length, N/m.
+    weight: f64,
+}
+
+impl CableModel {
+    pub(super) fn of(robot: &Robot) -> Self {
+        Self { material: Material::of(robot), elements: robot.elements, weight: robot.weight_per_length() }
+    }
+
+    /// The same cable with its weight scaled.
+    fn with_weight(self, part: f64) -> Self {
+        Self { weight: self.weight * part, ..self }
+    }
+
+    /// Walks from the platform to the winch: calls `visit` with each element's force and outer node; gives the end.
+    fn walk<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        start: [D; 2],
+        t0: [D; 2],
+        length: D,
+        mut visit: impl FnMut([D; 2], [D; 2]),
+    ) -> [D; 2] {
+        let l = length / self.elements as f64;
+        let (mut r, mut t) = (start, t0);
+        for _ in 0..self.elements {
+            let force = (t[0] * t[0] + t[1] * t[1]).sqrt();
+            let reach = l * self.material.stretch(force) / force;
+            r = [r[0] + reach * t[0], r[1] + reach * t[1]];
+            visit(t, r);
+            t[1] += l * self.weight;
+        }
+        r
+    }
+
+    /// The force of the cable on the platform, t₀ − (0, μ g l/2).
+    pub(super) fn platform_force<D: DualNum<Primitive = f64> + Copy>(&self, t0: [D; 2], length: D) -> [D; 2] {
+        [t0[0], t0[1] - length * (0.5 * self.weight / self.elements as f64)]
+    }
+
+    /// Residual of a prescribed cable with the unknowns (t₀, L): its end's distance from the anchor (m), and the
+    /// excess of its tension at the platform (N).
+    pub(super) fn prescribed_residual<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        position: [D; 2],
+        anchor: Vec2,
+        tension: D,
+        z: [D; 3],
+    ) -> [D; 3] {
+        let [tx, ty, length] = z;
+        let end = self.walk(position, [tx, ty], length, |_, _| {});
+        let [fx, fy] = self.platform_force([tx, ty], length);
+        [end[0] - anchor.x, end[1] - anchor.y, (fx * fx + fy * fy).sqrt() - tension]
+    }
+
+    /// Residual of the equilibrium pair with the unknowns (t₀, L) of both: the distances of the ends from their
+    /// anchors (m), and the excess of their force on the platform over `load` (N).
+    pub(super) fn pair_residual<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        position: [D; 2],
+        anchors: [Vec2; 2],
+        load: [D; 2],
+        z: [D; 6],
+    ) -> [D; 6] {
+        let mut residual = [D::from(0.0); 6];
+        residual[4] = -load[0];
+        residual[5] = -load[1];
+        for (i, anchor) in anchors.into_iter().enumerate() {
+            let (t0, length) = ([z[3 * i], z[3 * i + 1]], z[3 * i + 2]);
+            let end = self.walk(position, t0, length, |_, _| {});
+            let force = self.platform_force(t0, length);
+            for j in 0..2 {
+                residual[2 * i + j] = end[j] - anchor[j];
+                residual[4 + j] += force[j];
+            }
+        }
+        residual
+    }
+
+    fn shape(&self, position: Vec2, t0: Vec2, length: f64) -> CableShape {
+        let mut nodes = vec![position];
+        let mut forces = Vec::with_capacity(self.elements);
+        self.walk(position.into(), t0.into(), length, |t, r| {
+            forces.push(Vec2::from(t));
+            nodes.push(Vec2::from(r));
+        });
+        let half = Vec2::new(0.0, 0.5 * self.weight * length / self.elements as f64);
+        let last = forces[forces.len() - 1];
+        CableShape {
+            t0,
+            length,
+            nodes,
+            forces,
+            tension_at_platform: (t0 - half).norm(),
+            tension_at_winch: (last + half).norm(),
+        }
+    }
+}
+
+/// The tension of a prescribed cable at `position`, in newtons, for plain and dual numbers.
+pub(super) fn prescribed_tension<D: DualNum<Primitive = f64> + Copy>(law: TensionLaw, position: [D; 2]) -> D {
+    match law {
+        TensionLaw::Equilibrium => D::from(0.0),
+        TensionLaw::Constant(tension) => D::from(tension),
+        TensionLaw::Hypot { horizontal, vertical } => {
+            let part = |c: [f64; 3]| position[0] * c[1] + position[1] * c[2] + c[0];
+            let (h, v) = (part(horizontal), part(vertical));
+            (h * h + v * v).sqrt()
+        }
+    }
+}
+
+/// The vector from the platform to the anchor of cable i and its length.
+fn chord(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), Infeasible> {
+    let chord = robot.cables[i].anchor - position;
+    let distance = chord.norm();
+    if distance < AT_ANCHOR { Err(Infeasible::AtAnchor { cable: i }) } else { Ok((chord, distance)) }
+}
+
+/// (t₀, L) of the prescribed cable i.
+fn prescribed(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), StaticsError> {
+    let cable = CableModel::of(robot);
+    let (chord, distance) = chord(robot, i, position)?;
+    let tension = prescribed_tension(robot.cables[i].tension, position.into());
+    if !(tension > 0.0 && tension.is_finite()) {
+        return Err(Infeasible::NoTension { cable: i, tension }.into());
+    }
+    let straight = chord * (tension / distance);
+    let start = SVector::from([straight.x, straight.y, distance / cable.material.stretch(tension)]);
+    let scale = SVector::from([distance, distance, tension]);
+    let residual = |part: f64, z: SVector<DualSVec64<3>, 3>| {
+        let tension = DualSVec64::from(tension);
+        let position = [DualSVec64::from(position.x), DualSVec64::from(position.y)];
+        SVector::from(cable.with_weight(part).prescribed_residual(position, robot.cables[i].anchor, tension, z.into()))
+    };
+    let z = turn_weight_on(start, &scale, residual, |z| z[2] > 0.0).map_err(|stop| match stop {
+        Stop::Fold { .. } => Infeasible::TooSlack { cable: i, tension }.into(),
+        Stop::Failed => StaticsError::NotConverged { cable: i },
+    })?;
+    Ok((Vec2::new(z[0], z[1]), z[2]))
+}
+
+/// (t₀, L) of the two equilibrium cables that together pull with `load`.
+fn pair(robot: &Robot, position: Vec2, load: Vec2) -> Result<[(Vec2, f64); 2], StaticsError> {
+    let cable = CableModel::of(robot);
+    let [a, b] = robot.pair();
+    let (chord_a, distance_a) = chord(robot, a, position)?;
+    let (chord_b, distance_b) = chord(robot, b, position)?;
+    let (e_a, e_b) = (chord_a / distance_a, chord_b / distance_b);
+    // Straight cables: T_a e_a + T_b e_b = load.
+    let sine = e_a.perp(&e_b);
+    let straight = [load.perp(&e_b) / sine, e_a.perp(&load) / sine];
+    // Collinear to rounding, or so nearly that the tensions leave every scale of the material.
+    let largest = 1e9 * cable.material.axial_stiffness.max(load.norm());
+    if !straight.iter().all(|tension| tension.abs() < largest) {
+        return Err(Infeasible::OneLine { cables: [a, b] }.into());
+    }
+    let (weakest, tension) = if straight[0] < straight[1] { (a, straight[0]) } else { (b, straight[1]) };
+    if tension <= 0.0 {
+        return Err(Infeasible::WouldPush { cable: weakest, tension }.into());
+    }
+    let reach = |tension: f64, distance: f64| distance / cable.material.stretch(tension);
+    let (t_a, t_b) = (e_a * straight[0], e_b * straight[1]);
+    let (l_a, l_b) = (reach(straight[0], distance_a), reach(straight[1], distance_b));
+    let start = SVector::from([t_a.x, t_a.y, l_a, t_b.x, t_b.y, l_b]);
+    let force = straight[0].max(straight[1]);
+    let scale = SVector::from([distance_a, distance_a, distance_b, distance_b, force, force]);
+    let anchors = [robot.cables[a].anchor, robot.cables[b].anchor];
+    let residual = |part: f64, z: SVector<DualSVec64<6>, 6>| {
+        let dual = |v: Vec2| [DualSVec64::from(v.x), DualSVec64::from(v.y)];
+        SVector::from(cable.with_weight(part).pair_residual(dual(position), anchors, dual(load), z.into()))
+    };
+    let z = turn_weight_on(start, &scale, residual, |z| z[2] > 0.0 && z[5] > 0.0).map_err(|stop| match stop {
+        Stop::Fold { last } => {
+            let tension = |i: usize| f64::hypot(last[i], last[i + 1]);
+            Infeasible::GoesSlack { cable: if tension(0) < tension(3) { a } else { b } }.into()
+        }
+        Stop::Failed => StaticsError::NotConverged { cable: a },
+    })?;
+    Ok([(Vec2::new(z[0], z[1]), z[2]), (Vec2::new(z[3], z[4]), z[5])])
+}
+
+/// Why the taut shape could not be followed to full weight.
+enum Stop<const N: usize> {
+    /// It meets a slack shape and ends before; the last unknowns on it.
+    Fold { last: SVector<f64, N> },
+    /// Numbers left the range of floating point.
+    Failed,
+}
+
+/// Follows the solution of F(s, z) = 0 from the straight `start` at s = 0 to s = 1, s the part of the cables' weight.
+///
+/// `scale` is the size of each equation. A step is taken where Newton's method converges to a shape that is
+/// `admissible` and has the same sign of the Jacobian's determinant as the start; the first one tried is the whole.
+fn turn_weight_on<const N: usize>(
+    start: SVector<f64, N>,
+    scale: &SVector<f64, N>,
+    residual: impl Fn(f64, SVector<DualSVec64<N>, N>) -> SVector<DualSVec64<N>, N>,
+    admissible: impl Fn(&SVector<f64, N>) -> bool,
+) -> Result<SVector<f64, N>, Stop<N>>
+where
+    Const<N>: ToTypenum + nalgebra::DimMin<Const<N>, Output = Const<N>>,
+{
+    let (_, straight_jacobian) = jacobian(|z| residual(0.0, z), &start);
+    let orientation = straight_jacobian.determinant();
+    if !orientation.is_finite() || orientation == 0.0 {
+        return Err(Stop::Failed);
+    }
+    let (mut part, mut step, mut last) = (0.0_f64, 1.0_f64, start);
+    let mut before: Option<(f64, SVector<f64, N>)> = None;
+    for _ in 0..WEIGHT_STEPS {
+        let next = (part + step).min(1.0);
+        // From the second step on, the guess continues the line through the last two shapes.
+        let guess = before.map_or(last, |(s, z)| last + (last - z) * ((next - part) / (part - s)));
+        let found = newton(guess, scale, |z| residual(next, z))
+            .filter(|(z, jacobian)| admissible(z) && jacobian.determinant() * orientation.signum() > 0.0);
+        match found {
+            Some((z, _)) if next >= 1.0 => return Ok(z),
+            Some((z, _)) => {
+                before = Some((part, last));
+                (part, last, step) = (next, z, 2.0 * step);
+            }
+            None => {
+                step *= 0.25;
+                // Near the straight start the weight that matters may be far smaller than near full weight.
+                if step < SMALLEST_STEP * part.max(SMALLEST_STEP) {
+                    return Err(Stop::Fold { last });
+                }
+            }
+        }
+    }
+    Err(Stop::Fold { last })
+}
+
+/// A solution of F(z) = 0 near `z` and the Jacobian there, by damped Newton's method down to rounding.
+fn newton<const N: usize>(
+    mut z: SVector<f64, N>,
+    scale: &SVector<f64, N>,
+    residual: impl Fn(SVector<DualSVec64<N>, N>) -> SVector<DualSVec64<N>, N>,
+) -> Option<(SVector<f64, N>, OMatrix<f64, Const<N>, Const<N>>)>
+where
+    Const<N>: ToTypenum + nalgebra::DimMin<Const<N>, Output = Const<N>>,
+{
+    let evaluate = |z: &SVector<f64, N>| {
+        let (f, j) = jacobian(&residual, z);
+        let size = f.component_div(scale).norm();
+        (f, j, size)
+    };
+    let (mut f, mut j, mut size) = evaluate(&z);
+    for _ in 0..NEWTON_STEPS {
+        if !size.is_finite() {
+            return None;
+        }
+        let step = j.lu().solve(&f)?;
+        let mut damping = 1.0;
+        let (next, values) = loop {
+            let next = z - step * damping;
+            let values = evaluate(&next);
+            if values.2 < (1.0 - 0.25 * damping) * size {
+                break (next, values);
+            }
+            damping *= 0.5;
+            if damping < 1e-3 {
+                // No way down: either rounding has been reached, or there is no solution here.
+                return (size < 1e-10).then_some((z, j));
+            }
+        };
+        z = next;
+        (f, j, size) = values;
+    }
+    (size < 1e-10).then_some((z, j))
+}

@@ -1,0 +1,332 @@
+//! The robot and its motion, validated: if a [`Robot`] exists, it is physical.
+
+use std::fmt;
+
+use nalgebra::Vector2;
+
+/// A point or a vector in the robot's plane, in metres or newtons: x to the right, y up.
+pub type Vec2 = Vector2<f64>;
+
+/// How many cables a robot may have.
+pub const CABLES: std::ops::RangeInclusive<usize> = 3..=8;
+/// How many elements a cable may be divided into.
+pub const ELEMENTS: std::ops::RangeInclusive<usize> = 2..=200;
+/// Two anchors nearer than this, in metres, are the same point.
+const COINCIDENT: f64 = 1e-9;
+
+/// The strain measure of the axial law, see [`crate::mechanics::Material`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Strain {
+    /// Green's strain ε = ½(λ² − 1) with energy ½ EA ε²: the paper's choice.
+    Green,
+    /// Engineering strain ε = λ − 1.
+    Engineering,
+}
+
+/// Which stiffness a small displacement from the static shape meets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Linearisation {
+    /// The secant stiffness (N/λ) I: the paper's simplification (its Eq. 15).
+    Secant,
+    /// The full tangent stiffness (its Eq. 14).
+    Tangent,
+}
+
+/// What sets a cable's tension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TensionLaw {
+    /// The tension follows from the platform's equilibrium. Exactly two cables of a robot are of this kind.
+    Equilibrium,
+    /// The tension at the platform is this constant, in newtons.
+    Constant(f64),
+    /// The tension at the platform is hypot(h₀ + hₓ x + h_y y, v₀ + vₓ x + v_y y), in newtons, at the
+    /// platform's position (x, y).
+    Hypot {
+        /// h₀ in N, hₓ and h_y in N/m.
+        horizontal: [f64; 3],
+        /// v₀ in N, vₓ and v_y in N/m.
+        vertical: [f64; 3],
+    },
+}
+
+/// One cable: from the platform to a fixed winch point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cable {
+    /// The winch point, in metres.
+    pub anchor: Vec2,
+    /// What sets its tension.
+    pub tension: TensionLaw,
+}
+
+/// Damping in proportion to mass (α, 1/s) and to elastic stiffness (β, s): αM + βK.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Damping {
+    /// α in 1/s.
+    pub alpha: f64,
+    /// β in s.
+    pub beta: f64,
+}
+
+/// What a robot is made of, not yet validated. SI units throughout.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotSpec {
+    /// Gravitational acceleration g, downward, in m/s².
+    pub gravity: f64,
+    /// Young's modulus E of the cables, in Pa.
+    pub youngs_modulus: f64,
+    /// Cross-section A of the cables, in m².
+    pub area: f64,
+    /// Mass μ of the cables per unstretched length, in kg/m.
+    pub mass_per_length: f64,
+    /// The cables' strain measure.
+    pub strain: Strain,
+    /// Mass m of the platform, in kg.
+    pub platform_mass: f64,
+    /// The cables, in the order of their numbers.
+    pub cables: Vec<Cable>,
+    /// Elements per cable, n.
+    pub elements: usize,
+    /// Damping.
+    pub damping: Damping,
+    /// Secant or tangent stiffness.
+    pub linearisation: Linearisation,
+}
+
+/// A validated robot; derefs to its [`RobotSpec`] for reading.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Robot {
+    spec: RobotSpec,
+    pair: [usize; 2],
+}
+
+/// One thing wrong with an input: where, what was found, what is allowed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The field's path in a scenario file, such as `cables[2].anchor`.
+    pub path: String,
+    /// The value found, as text.
+    pub value: String,
+    /// What is allowed.
+    pub allowed: String,
+}
+
+impl Fault {
+    /// A fault at `path`, where `value` was found and `allowed` says what may stand there.
+    pub fn new(path: impl Into<String>, value: impl fmt::Display, allowed: impl Into<String>) -> Self {
+        Self { path: path.into(), value: value.to_string(), allowed: allowed.into() }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {} is not allowed: {}", self.path, self.value, self.allowed)
+    }
+}
+
+/// Everything wrong with an input; never empty.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+pub struct Faults(pub Vec<Fault>);
+
+impl Robot {
+    /// Validates `spec`.
+    ///
+    /// # Errors
+    /// All faults at once: E, A, μ, m not positive (or EA or a mass beyond the range of numbers), negative
+    /// gravity or damping, a number that is not finite, fewer than 3 or more than 8 cables, not exactly two
+    /// at equilibrium, a constant tension that is not positive, coincident anchors, elements outside 2..=200.
+    pub fn new(spec: RobotSpec) -> Result<Self, Faults> {
+        let mut faults = Vec::new();
+        let mut check = |path: &str, value: f64, ok: bool, allowed: &str| {
+            if !(ok && value.is_finite()) {
+                faults.push(Fault::new(path, value, allowed));
+            }
+        };
+        let not_negative = "a finite number, 0 or more";
+        let positive = "a finite number greater than 0";
+        check("gravity", spec.gravity, spec.gravity >= 0.0, not_negative);
+        check("cable.youngs_modulus", spec.youngs_modulus, spec.youngs_modulus > 0.0, positive);
+        check("cable.area", spec.area, spec.area > 0.0, positive);
+        check("cable.mass_per_length", spec.mass_per_length, spec.mass_per_length > 0.0, positive);
+        check("platform.mass", spec.platform_mass, spec.platform_mass > 0.0, positive);
+        check("damping.alpha", spec.damping.alpha, spec.damping.alpha >= 0.0, not_negative);
+        check("damping.beta", spec.damping.beta, spec.damping.beta >= 0.0, not_negative);
+        for (i, cable) in spec.cables.iter().enumerate() {
+            for (j, &coordinate) in cable.anchor.iter().enumerate() {
+                check(&format!("cables[{i}].anchor[{j}]"), coordinate, true, "a finite number");
+            }
+            match cable.tension {
+                TensionLaw::Equilibrium => {}
+                TensionLaw::Constant(tension) => {
+                    check(&format!("cables[{i}].tension.constant"), tension, tension > 0.0, positive);
+                }
+                TensionLaw::Hypot { horizontal, vertical } => {
+                    for (name, coefficients) in [("horizontal", horizontal), ("vertical", vertical)] {
+                        for (j, coefficient) in coefficients.into_iter().enumerate() {
+                            let path = format!("cables[{i}].tension.{name}[{j}]");
+                            check(&path, coefficient, true, "a finite number");
+                        }
+                    }
+                }
+            }
+        }
+        if faults.is_empty() {
+            check_products(&spec, &mut faults);
+        }
+        if !ELEMENTS.contains(&spec.elements) {
+            let allowed = format!("a whole number from {} to {}", ELEMENTS.start(), ELEMENTS.end());
+            faults.push(Fault::new("elements_per_cable", spec.elements, allowed));
+        }
+        let pair = check_cables(&spec.cables, &mut faults);
+        match (pair, faults.is_empty()) {
+            (Some(pair), true) => Ok(Self { spec, pair }),
+            _ => Err(Faults(faults)),
+        }
+    }
+
+    /// The two cables at equilibrium, 0-based, in rising order.
+    pub fn pair(&self) -> [usize; 2] {
+        self.pair
+    }
+
+    /// The prescribed (stiffening) cables, 0-based.
+    pub fn prescribed(&self) -> impl Iterator<Item = usize> {
+        (0..self.spec.cables.len()).filter(|i| !self.pair.contains(i))
+    }
+
+    /// EA in newtons.
+    pub fn axial_stiffness(&self) -> f64 {
+        self.spec.youngs_modulus * self.spec.area
+    }
+
+    /// The weight of cable per unstretched length, μ g, in N/m.
+    pub fn weight_per_length(&self) -> f64 {
+        self.spec.mass_per_length * self.spec.gravity
+    }
+}
+
+impl std::ops::Deref for Robot {
+    type Target = RobotSpec;
+
+    fn deref(&self) -> &RobotSpec {
+        &self.spec
+    }
+}
+
+/// Products of legal numbers that leave the range of floating point.
+fn check_products(spec: &RobotSpec, faults: &mut Vec<Fault>) {
+    let stiffness = spec.youngs_modulus * spec.area;
+    if !stiffness.is_normal() {
+        let allowed = "E times A must stay within the range of floating-point numbers";
+        faults.push(Fault::new("cable.youngs_modulus", spec.youngs_modulus, allowed));
+    }
+    if !(spec.mass_per_length * spec.gravity).is_finite() || !(spec.platform_mass * spec.gravity).is_finite() {
+        let allowed = "weights must stay within the range of floating-point numbers";
+        faults.push(Fault::new("gravity", spec.gravity, allowed));
+    }
+}
+
+/// Checks number, kinds and anchors of the cables; the two at equilibrium where there are just two.
+fn check_cables(cables: &[Cable], faults: &mut Vec<Fault>) -> Option<[usize; 2]> {
+    if !CABLES.contains(&cables.len()) {
+        let allowed = format!("{} to {} cables", CABLES.start(), CABLES.end());
+        faults.push(Fault::new("cables", format!("a list of {}", cables.len()), allowed));
+    }
+    for (j, b) in cables.iter().enumerate() {
+        for (i, a) in cables[..j].iter().enumerate() {
+            if (a.anchor - b.anchor).norm() < COINCIDENT {
+                let value = format!("[{}, {}]", b.anchor.x, b.anchor.y);
+                let allowed = format!("a point that differs from cables[{i}].anchor");
+                faults.push(Fault::new(format!("cables[{j}].anchor"), value, allowed));
+            }
+        }
+    }
+    let at_equilibrium: Vec<usize> =
+        (0..cables.len()).filter(|&i| cables[i].tension == TensionLaw::Equilibrium).collect();
+    if let [a, b] = at_equilibrium[..] {
+        return Some([a, b]);
+    }
+    let value = format!("{} cables with tension \"equilibrium\"", at_equilibrium.len());
+    faults.push(Fault::new("cables", value, "exactly two with tension \"equilibrium\""));
+    None
+}
+
+/// Where the platform is and how it moves: at constant velocity, quasi-statically.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    position: Vec2,
+    direction: Vec2,
+    speed: f64,
+}
+
+impl Motion {
+    /// A motion through `position` (m) along `direction` (any length but zero; it is normalised) at `speed`
+    /// (m/s, not negative).
+    ///
+    /// # Errors
+    /// Numbers that are not finite, a zero direction, a negative speed.
+    pub fn new(position: impl Into<Vec2>, direction: impl Into<Vec2>, speed: f64) -> Result<Self, Faults> {
+        let (position, direction) = (position.into(), direction.into());
+        let mut faults = Vec::new();
+        for (name, vector) in [("position", position), ("direction", direction)] {
+            for (j, coordinate) in vector.iter().enumerate().filter(|(_, c)| !c.is_finite()) {
+                faults.push(Fault::new(format!("motion.{name}[{j}]"), coordinate, "a finite number"));
+            }
+        }
+        if !(speed.is_finite() && speed >= 0.0) {
+            faults.push(Fault::new("motion.speed", speed, "a finite number, 0 or more (turn the direction round)"));
+        }
+        // Scaled by the largest component first: the square of 1e-200 is zero, and of 1e200 infinite.
+        let scaled = direction / direction.amax();
+        if direction.amax() == 0.0 {
+            let value = format!("[{}, {}]", direction.x, direction.y);
+            faults.push(Fault::new("motion.direction", value, "a vector that is not zero"));
+        }
+        if faults.is_empty() {
+            Ok(Self { position, direction: scaled.normalize(), speed })
+        } else {
+            Err(Faults(faults))
+        }
+    }
+
+    /// The platform's position, in metres.
+    pub fn position(&self) -> Vec2 {
+        self.position
+    }
+
+    /// The unit vector of the motion.
+    pub fn direction(&self) -> Vec2 {
+        self.direction
+    }
+
+    /// The speed, in m/s.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+}
+
+/// The robot of the paper's section 3, with α = 0.5 1/s and β = 0.005 s, for which the paper gives no values.
+///
+/// # Errors
+/// None: the robot is physical, as the tests show.
+pub fn paper() -> Result<Robot, Faults> {
+    let stiffening = |slope| TensionLaw::Hypot { horizontal: [50.0, slope, 0.0], vertical: [45.0, 0.0, 0.0] };
+    let cable = |x, y, tension| Cable { anchor: Vec2::new(x, y), tension };
+    Robot::new(RobotSpec {
+        gravity: 9.81,
+        youngs_modulus: 125e6,
+        area: 5e-5,
+        mass_per_length: 0.4,
+        strain: Strain::Green,
+        platform_mass: 2.0,
+        cables: vec![
+            cable(-10.0, 5.0, TensionLaw::Equilibrium),
+            cable(10.0, 5.0, TensionLaw::Equilibrium),
+            cable(-10.0, -5.0, stiffening(5.0)),
+            cable(10.0, -5.0, stiffening(-5.0)),
+        ],
+        elements: 10,
+        damping: Damping { alpha: 0.5, beta: 0.005 },
+        linearisation: Linearisation::Secant,
+    })
+}

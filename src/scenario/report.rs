@@ -1,0 +1,174 @@
+//! The analysis as programs read it: `tautline/analysis/1`, on the command line and in the page.
+
+use nalgebra::Complex;
+use serde::{Deserialize, Serialize};
+
+use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError};
+use crate::robot::{Motion, Robot};
+use crate::stability::{Critical, Kind, NotConverged, Outcome, Spectrum};
+use crate::study::Local;
+
+/// The name and version of the format.
+pub const SCHEMA: &str = "tautline/analysis/1";
+/// Up to this speed (m/s) the critical speed is searched for, unless told otherwise.
+pub const DEFAULT_MAX_SPEED: f64 = 40.0;
+
+/// One analysis. SI units; arrays that could not be computed are empty.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Report {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// Whether the pose has a taut equilibrium that could be computed.
+    pub feasible: bool,
+    /// Why not, as a sentence.
+    pub reason: Option<String>,
+    /// One entry per cable.
+    pub cables: Vec<CableReport>,
+    /// The scenario's speed in m/s.
+    pub speed: f64,
+    /// All eigenvalues [Re λ, Im λ] at that speed, multiplicity included, in 1/s.
+    pub eigenvalues: Vec<[f64; 2]>,
+    /// The largest Re λ, in 1/s.
+    pub max_growth_rate: Option<f64>,
+    /// Whether every Re λ < 0.
+    pub stable: Option<bool>,
+    /// The first crossing, where one was found.
+    pub critical: Option<CriticalReport>,
+    /// The speed in m/s up to which it was searched.
+    pub searched_up_to: f64,
+}
+
+/// One cable at rest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CableReport {
+    /// L in m.
+    pub unstretched_length: f64,
+    /// In N.
+    pub tension_at_platform: f64,
+    /// In N.
+    pub tension_at_winch: f64,
+    /// dL/dσ.
+    pub length_rate: f64,
+    /// d²L/dσ² in 1/m.
+    pub length_curvature: f64,
+    /// From the platform to the winch, in m.
+    pub nodes: Vec<[f64; 2]>,
+}
+
+/// The critical speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CriticalReport {
+    /// In m/s.
+    pub speed: f64,
+    /// |Im λ|/2π of the crossing eigenvalue, in Hz.
+    pub frequency_hz: f64,
+    /// How stability is lost.
+    pub kind: KindReport,
+    /// The responsible cable, 1-based.
+    pub cable: usize,
+}
+
+/// How stability is lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum KindReport {
+    /// An oscillation grows.
+    Flutter,
+    /// A displacement grows without oscillating.
+    Divergence,
+}
+
+impl CableReport {
+    fn new(shape: &CableShape, rates: LengthRates) -> Self {
+        Self {
+            unstretched_length: shape.length,
+            tension_at_platform: shape.tension_at_platform,
+            tension_at_winch: shape.tension_at_winch,
+            length_rate: rates.first,
+            length_curvature: rates.second,
+            nodes: shape.nodes.iter().map(|node| [node.x, node.y]).collect(),
+        }
+    }
+}
+
+impl From<&Critical> for CriticalReport {
+    fn from(critical: &Critical) -> Self {
+        let kind = match critical.kind {
+            Kind::Flutter => KindReport::Flutter,
+            Kind::Divergence => KindReport::Divergence,
+        };
+        Self { speed: critical.speed, frequency_hz: critical.frequency_hz(), kind, cable: critical.cable + 1 }
+    }
+}
+
+impl Report {
+    /// The report of a pose whose critical speed is not known yet: [`Self::set_critical`] completes it.
+    pub fn new(local: &Local, spectrum: &Spectrum) -> Self {
+        let cables = local.statics.cables.iter().zip(&local.rates);
+        Self {
+            schema: SCHEMA.into(),
+            feasible: true,
+            reason: None,
+            cables: cables.map(|(shape, &rates)| CableReport::new(shape, rates)).collect(),
+            speed: spectrum.speed(),
+            eigenvalues: spectrum.eigenvalues().map(|Complex { re, im }| [re, im]).collect(),
+            max_growth_rate: Some(spectrum.growth_rate()),
+            stable: Some(spectrum.is_stable()),
+            critical: None,
+            searched_up_to: 0.0,
+        }
+    }
+
+    /// The report of a pose without an answer.
+    pub fn failed(reason: &str, speed: f64) -> Self {
+        Self {
+            schema: SCHEMA.into(),
+            feasible: false,
+            reason: Some(reason.into()),
+            cables: Vec::new(),
+            speed,
+            eigenvalues: Vec::new(),
+            max_growth_rate: None,
+            stable: None,
+            critical: None,
+            searched_up_to: 0.0,
+        }
+    }
+
+    /// Enters the end of the search for the critical speed up to `limit`.
+    pub fn set_critical(&mut self, outcome: &Outcome, limit: f64) {
+        self.searched_up_to = limit;
+        self.critical = match outcome {
+            Outcome::Found(critical) => Some(critical.into()),
+            Outcome::NoneUpTo(_) => None,
+        };
+    }
+
+    /// The whole analysis in one go, the critical speed searched up to `limit` (m/s).
+    pub fn analyze(robot: &Robot, motion: &Motion, limit: f64) -> Self {
+        let outcome = Local::new(robot, motion).map_err(|failure| failure_sentence(&failure)).and_then(|local| {
+            let complete = || -> Result<Self, NotConverged> {
+                let mut report = Self::new(&local, &local.problem.spectrum(motion.speed())?);
+                report.set_critical(&local.critical_search(limit).run()?, limit);
+                Ok(report)
+            };
+            complete().map_err(|error| sentence(&error.to_string()))
+        });
+        outcome.unwrap_or_else(|reason| Self { searched_up_to: limit, ..Self::failed(&reason, motion.speed()) })
+    }
+}
+
+/// Why a pose has no answer, as a sentence.
+pub fn failure_sentence(failure: &Failure) -> String {
+    match failure.reason {
+        StaticsError::Infeasible(reason) => sentence(&format!("no static equilibrium here: {reason}")),
+        StaticsError::NotConverged { .. } => sentence(&failure.reason.to_string()),
+    }
+}
+
+/// With a capital letter and a full stop.
+pub fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}

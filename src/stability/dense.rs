@@ -1,0 +1,128 @@
+//! The spectrum by a dense eigenvalue solver: the companion matrix of the quadratic problem, nalgebra's Schur form.
+
+use nalgebra::{Complex, DMatrix, Schur};
+
+use crate::mechanics::{Hub, Vibration};
+use crate::robot::Damping;
+use crate::stability::{NotConverged, Spectrum};
+
+/// Iterations per eigenvalue after which the Schur form counts as not converging; it needs two or three.
+const ITERATIONS_PER_EIGENVALUE: usize = 60;
+
+/// The eigenvalue problem (λ² M + λ (v C + αM + βK) + K + v² D) q = 0 of a [`Vibration`], prepared for many speeds.
+///
+/// With the Cholesky factor M = L Lᵀ, x = Lᵀ q and λ = Ω s, Ω² the largest entry of L⁻¹ K L⁻ᵀ, the eigenvalues s are
+/// those of [[0, I], [−K̃/Ω², −C̃/Ω]]: all blocks have entries of order one, so no balancing is needed. An isotropic
+/// problem is solved for one of its two equal directions, and each eigenvalue counted twice.
+#[derive(Clone, Debug)]
+pub struct Eigenproblem {
+    transfer: DMatrix<f64>,
+    flow: DMatrix<f64>,
+    elastic: DMatrix<f64>,
+    damping: Damping,
+    scale: f64,
+    multiplicity: usize,
+}
+
+impl Eigenproblem {
+    /// Assembles and reduces the problem.
+    ///
+    /// # Errors
+    /// [`NotConverged`] where masses or stiffnesses leave the range of floating point.
+    pub fn new(vibration: &Vibration) -> Result<Self, NotConverged> {
+        let directions = if vibration.isotropic { 1 } else { 2 };
+        let size = directions * vibration.nodes();
+        let zero = || DMatrix::<f64>::zeros(size, size);
+        let (mut mass, mut transfer, mut flow, mut elastic) = (zero(), zero(), zero(), zero());
+
+        let mut next = 0;
+        let hub = match vibration.hub {
+            Hub::Fixed => None,
+            Hub::Platform(platform) => {
+                for direction in 0..directions {
+                    mass[(direction, direction)] = platform;
+                }
+                next = 1;
+                Some(0)
+            }
+        };
+        for chain in &vibration.chains {
+            for (k, element) in chain.elements.iter().enumerate() {
+                let outer = next + k;
+                let winch = k + 1 == chain.elements.len();
+                let nodes = [if k == 0 { hub } else { Some(outer - 1) }, (!winch).then_some(outer)];
+                for (i, row) in nodes.into_iter().enumerate() {
+                    for (j, column) in nodes.into_iter().enumerate() {
+                        let (Some(row), Some(column)) = (row, column) else { continue };
+                        let sign = if i == j { 1.0 } else { -1.0 };
+                        for a in 0..directions {
+                            let at = (row * directions + a, column * directions + a);
+                            mass[at] += element.mass[(i, j)];
+                            transfer[at] += element.transfer[(i, j)];
+                            flow[at] += element.flow[(i, j)];
+                            for b in 0..directions {
+                                elastic[(at.0, column * directions + b)] += sign * element.elastic[(a, b)];
+                            }
+                        }
+                    }
+                }
+            }
+            next += chain.inner_nodes();
+        }
+
+        let lower = mass.cholesky().ok_or(NotConverged)?.unpack();
+        let reduce = |matrix: DMatrix<f64>| -> Result<DMatrix<f64>, NotConverged> {
+            let left = lower.solve_lower_triangular(&matrix).ok_or(NotConverged)?;
+            let both = lower.solve_lower_triangular(&left.transpose()).ok_or(NotConverged)?;
+            Ok(both.transpose())
+        };
+        let elastic = reduce(elastic)?;
+        let scale = elastic.amax().sqrt();
+        if !(scale.is_normal() && scale.is_finite()) {
+            return Err(NotConverged);
+        }
+        Ok(Self {
+            transfer: reduce(transfer)? / scale,
+            flow: reduce(flow)? / (scale * scale),
+            elastic: elastic / (scale * scale),
+            damping: vibration.damping,
+            scale,
+            multiplicity: if vibration.isotropic { 2 } else { 1 },
+        })
+    }
+
+    /// The frequency Ω in rad/s by which eigenvalues are scaled: about the largest of the undamped problem. Their
+    /// rounding errors are a small multiple of machine precision times Ω.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// α and β.
+    pub fn damping(&self) -> Damping {
+        self.damping
+    }
+
+    /// All eigenvalues at `speed` (m/s), in 1/s.
+    ///
+    /// # Errors
+    /// [`NotConverged`].
+    pub fn spectrum(&self, speed: f64) -> Result<Spectrum, NotConverged> {
+        let n = self.elastic.nrows();
+        let stiffness = &self.elastic + &self.flow * (speed * speed);
+        let mut damping = &self.transfer * speed + &self.elastic * (self.damping.beta * self.scale);
+        for i in 0..n {
+            damping[(i, i)] += self.damping.alpha / self.scale;
+        }
+        let mut companion = DMatrix::zeros(2 * n, 2 * n);
+        companion.view_mut((0, n), (n, n)).fill_with_identity();
+        companion.view_mut((n, 0), (n, n)).copy_from(&-stiffness);
+        companion.view_mut((n, n), (n, n)).copy_from(&-damping);
+        // The Schur iteration does not end on numbers that are not finite.
+        if !companion.iter().all(|entry| entry.is_finite()) {
+            return Err(NotConverged);
+        }
+        let schur = Schur::try_new(companion, f64::EPSILON, ITERATIONS_PER_EIGENVALUE * 2 * n).ok_or(NotConverged)?;
+        let eigenvalues: Vec<Complex<f64>> = schur.complex_eigenvalues().iter().map(|s| s * self.scale).collect();
+        Spectrum::new(speed, eigenvalues, self.multiplicity)
+    }
+}

@@ -1,0 +1,16 @@
+//! Eigenvalues, mode shapes and the critical speed of a [`crate::mechanics::Vibration`].
+
+mod critical;
+mod dense;
+mod modes;
+mod spectrum;
+
+pub use critical::{Critical, CriticalSearch, Kind, Outcome, SCAN_STEP, Sample};
+pub use dense::Eigenproblem;
+pub use modes::{Mode, Polarisation, mode};
+pub use spectrum::{ModeValue, Spectrum};
+
+/// An eigenvalue iteration did not converge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the eigenvalues could not be computed")]
+pub struct NotConverged;

@@ -1,0 +1,264 @@
+//! Mode shapes and where their kinetic energy is, by inverse iteration along the cables.
+//!
+//! Q(λ) = λ² M + λ (v C + αM + βK) + K + v² D is block tridiagonal along each cable, and the cables meet only in the
+//! platform's block. Eliminating from the winches to the platform and substituting back costs O(n) per solve.
+//! docs/theory.md section 7.
+
+use nalgebra::{Complex, Matrix2, Vector2};
+
+use crate::mechanics::{Chain, Element, Hub, Vibration};
+
+type C64 = Complex<f64>;
+/// Two complex displacements, x and y.
+pub type Displacement = Vector2<C64>;
+
+/// Relative distance from λ at which Q is factored: near enough to single the mode out, far enough from Q being
+/// singular to rounding.
+const SHIFT: f64 = 1e-11;
+/// Solves per mode; the second removes what the start vector left of other modes.
+const ITERATIONS: usize = 3;
+
+/// Which of the two equal directions of an isotropic problem to look at; elsewhere only a start for the iteration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Polarisation {
+    /// Along x.
+    X,
+    /// Along y.
+    #[default]
+    Y,
+}
+
+/// A mode shape q(t) = Re(a q e^{λt}).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// λ in 1/s.
+    pub eigenvalue: C64,
+    /// Complex displacements of the n + 1 nodes of each cable, from the platform to the winch (which is at rest). The
+    /// largest component of all is 1.
+    pub displacement: Vec<Vec<Displacement>>,
+    /// Each cable's share of the kinetic energy q* M q.
+    pub cable_share: Vec<f64>,
+    /// The platform's share; all shares add up to 1.
+    pub platform_share: f64,
+    /// |Q(λ) q|/(|Q| |q|): how well the shape satisfies the equations.
+    pub residual: f64,
+}
+
+impl Mode {
+    /// The cable with the largest share of the kinetic energy, 0-based.
+    pub fn responsible_cable(&self) -> usize {
+        let shares = self.cable_share.iter().enumerate();
+        shares.max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(i, _)| i)
+    }
+}
+
+/// The mode of the eigenvalue nearest to `eigenvalue` (1/s) at `speed` (m/s).
+///
+/// Of several equal eigenvalues it gives one of their shapes: along `polarisation` where the problem is isotropic.
+pub fn mode(vibration: &Vibration, speed: f64, eigenvalue: C64, polarisation: Polarisation) -> Mode {
+    let size = eigenvalue.norm().max(frequency_scale(vibration));
+    let shift = Complex::new(SHIFT, 0.7 * SHIFT) * size;
+    let factors = Factors::new(vibration, speed, eigenvalue + shift);
+    let mut shape = start(vibration, polarisation);
+    for _ in 0..ITERATIONS {
+        shape = factors.solve(&shape);
+        shape.normalise();
+    }
+    let residual = shape.residual(vibration, speed, eigenvalue);
+    let (platform, cables) = shape.energies(vibration);
+    let total = platform + cables.iter().sum::<f64>();
+    Mode {
+        eigenvalue,
+        residual,
+        platform_share: platform / total,
+        cable_share: cables.iter().map(|energy| energy / total).collect(),
+        displacement: shape.per_cable(),
+    }
+}
+
+/// A frequency of the problem, so that a zero eigenvalue has something to be small against.
+fn frequency_scale(vibration: &Vibration) -> f64 {
+    let element = vibration.chains[0].elements[0];
+    1e-3 * (element.elastic.amax() / element.mass.amax()).sqrt()
+}
+
+/// Displacements of the hub and of the chains' inner nodes.
+#[derive(Clone)]
+struct Shape {
+    hub: Displacement,
+    hub_moves: bool,
+    inner: Vec<Vec<Displacement>>,
+}
+
+/// A start vector with some of every mode: neither smooth nor symmetric.
+fn start(vibration: &Vibration, polarisation: Polarisation) -> Shape {
+    let mut seed = 0_u32;
+    let mut next = || {
+        // A Weyl sequence of the golden ratio; its values in 0.5..1.5 never repeat a pattern.
+        seed += 1;
+        0.5 + (f64::from(seed) * 0.618_033_988_749_895).fract()
+    };
+    let isotropic = vibration.isotropic;
+    let mut displacement = || {
+        let (a, b) = (next(), next());
+        let (x, y) = match (isotropic, polarisation) {
+            (true, Polarisation::X) => (a, 0.0),
+            (true, Polarisation::Y) => (0.0, b),
+            (false, Polarisation::X) => (a, -b),
+            (false, Polarisation::Y) => (a, b),
+        };
+        Displacement::new(x.into(), y.into())
+    };
+    let hub_moves = matches!(vibration.hub, Hub::Platform(_));
+    let hub = if hub_moves { displacement() } else { Displacement::zeros() };
+    let inner = vibration.chains.iter().map(|c| (0..c.inner_nodes()).map(|_| displacement()).collect()).collect();
+    Shape { hub, hub_moves, inner }
+}
+
+/// An element's part of Q(λ): the block between its nodes i and j.
+fn block(vibration: &Vibration, element: &Element, speed: f64, lambda: C64, i: usize, j: usize) -> Matrix2<C64> {
+    let sign = if i == j { 1.0 } else { -1.0 };
+    let damping = vibration.damping;
+    let scalar = lambda * lambda * element.mass[(i, j)]
+        + lambda * (speed * element.transfer[(i, j)] + damping.alpha * element.mass[(i, j)])
+        + speed * speed * element.flow[(i, j)];
+    let elastic = (lambda * damping.beta + 1.0) * sign;
+    element.elastic.map(|a| elastic * a) + Matrix2::identity() * scalar
+}
+
+/// Q(λ) eliminated from the winches to the hub.
+struct Factors<'a> {
+    vibration: &'a Vibration,
+    speed: f64,
+    lambda: C64,
+    hub: Matrix2<C64>,
+    /// Inverse pivots of the inner nodes of each chain.
+    pivots: Vec<Vec<Matrix2<C64>>>,
+}
+
+impl<'a> Factors<'a> {
+    fn new(vibration: &'a Vibration, speed: f64, lambda: C64) -> Self {
+        let block = |element: &Element, i, j| block(vibration, element, speed, lambda, i, j);
+        let mut hub = match vibration.hub {
+            Hub::Platform(mass) => Matrix2::identity() * ((lambda * lambda + lambda * vibration.damping.alpha) * mass),
+            Hub::Fixed => Matrix2::identity(),
+        };
+        let mut pivots = Vec::with_capacity(vibration.chains.len());
+        for Chain { elements } in &vibration.chains {
+            // Pivot of inner node k: its own block less what the eliminated outer node adds.
+            let mut chain_pivots = vec![Matrix2::zeros(); elements.len() - 1];
+            let mut outer = Matrix2::zeros();
+            for k in (1..elements.len()).rev() {
+                let own = block(&elements[k - 1], 1, 1) + block(&elements[k], 0, 0) - outer;
+                let inverse = invert(own);
+                chain_pivots[k - 1] = inverse;
+                outer = block(&elements[k - 1], 0, 1) * inverse * block(&elements[k - 1], 1, 0);
+            }
+            if matches!(vibration.hub, Hub::Platform(_)) {
+                hub += block(&elements[0], 0, 0) - outer;
+            }
+            pivots.push(chain_pivots);
+        }
+        Self { vibration, speed, lambda, hub: invert(hub), pivots }
+    }
+
+    /// x with Q x = `right`.
+    fn solve(&self, right: &Shape) -> Shape {
+        let block = |element: &Element, i, j| block(self.vibration, element, self.speed, self.lambda, i, j);
+        let mut x = right.clone();
+        for ((chain, pivots), x_chain) in self.vibration.chains.iter().zip(&self.pivots).zip(&mut x.inner) {
+            for k in (1..chain.elements.len()).rev() {
+                let reduced = block(&chain.elements[k - 1], 0, 1) * pivots[k - 1] * x_chain[k - 1];
+                match k {
+                    1 => x.hub -= reduced,
+                    _ => x_chain[k - 2] -= reduced,
+                }
+            }
+        }
+        x.hub = if x.hub_moves { self.hub * x.hub } else { Displacement::zeros() };
+        for ((chain, pivots), x_chain) in self.vibration.chains.iter().zip(&self.pivots).zip(&mut x.inner) {
+            let mut inner = x.hub;
+            for k in 1..chain.elements.len() {
+                let reduced = x_chain[k - 1] - block(&chain.elements[k - 1], 1, 0) * inner;
+                inner = pivots[k - 1] * reduced;
+                x_chain[k - 1] = inner;
+            }
+        }
+        x
+    }
+}
+
+/// The inverse, of a matrix nudged off singularity where it is singular to rounding.
+fn invert(matrix: Matrix2<C64>) -> Matrix2<C64> {
+    matrix.try_inverse().unwrap_or_else(|| {
+        let nudge = matrix.map(|c| c.norm()).amax().max(f64::MIN_POSITIVE) * f64::EPSILON;
+        (matrix + Matrix2::identity() * C64::from(nudge)).try_inverse().unwrap_or_else(Matrix2::identity)
+    })
+}
+
+impl Shape {
+    fn values(&self) -> impl Iterator<Item = &C64> {
+        self.hub.iter().chain(self.inner.iter().flatten().flat_map(|d| d.iter()))
+    }
+
+    /// Makes the largest component 1.
+    fn normalise(&mut self) {
+        let largest = self.values().max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        let factor = largest.map_or(C64::from(1.0), |c| c.inv());
+        self.hub *= factor;
+        self.inner.iter_mut().flatten().for_each(|d| *d *= factor);
+    }
+
+    /// Displacements of all n + 1 nodes of each cable.
+    fn per_cable(&self) -> Vec<Vec<Displacement>> {
+        let ends = |inner: &Vec<Displacement>| {
+            std::iter::once(self.hub).chain(inner.iter().copied()).chain([Displacement::zeros()]).collect()
+        };
+        self.inner.iter().map(ends).collect()
+    }
+
+    /// q* M q of the platform and of each cable.
+    fn energies(&self, vibration: &Vibration) -> (f64, Vec<f64>) {
+        let platform = match vibration.hub {
+            Hub::Platform(mass) => mass * self.hub.norm_squared(),
+            Hub::Fixed => 0.0,
+        };
+        let cable = |(chain, nodes): (&Chain, Vec<Displacement>)| {
+            let element = |(k, element): (usize, &Element)| {
+                let (a, b) = (nodes[k], nodes[k + 1]);
+                element.mass[(0, 0)] * a.norm_squared()
+                    + element.mass[(1, 1)] * b.norm_squared()
+                    + 2.0 * element.mass[(0, 1)] * a.dotc(&b).re
+            };
+            chain.elements.iter().enumerate().map(element).sum()
+        };
+        (platform, vibration.chains.iter().zip(self.per_cable()).map(cable).collect())
+    }
+
+    /// |Q(λ) q|/(|Q| |q|) in the largest-component norm.
+    fn residual(&self, vibration: &Vibration, speed: f64, lambda: C64) -> f64 {
+        let mut hub = Displacement::zeros();
+        if let Hub::Platform(mass) = vibration.hub {
+            hub += self.hub * ((lambda * lambda + lambda * vibration.damping.alpha) * mass);
+        }
+        let (mut largest, mut size) = (0.0_f64, 0.0_f64);
+        let norm = |d: Displacement| d.map(|c| c.norm()).amax();
+        for (chain, nodes) in vibration.chains.iter().zip(self.per_cable()) {
+            let mut force = vec![Displacement::zeros(); nodes.len()];
+            for (k, element) in chain.elements.iter().enumerate() {
+                for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let q = block(vibration, element, speed, lambda, i, j);
+                    size = size.max(q.map(|c| c.norm()).amax());
+                    force[k + i] += q * nodes[k + j];
+                }
+            }
+            hub += force[0];
+            let inner = force[1..chain.elements.len()].iter().map(|&f| norm(f));
+            largest = inner.fold(largest, f64::max);
+        }
+        if self.hub_moves {
+            largest = largest.max(norm(hub));
+        }
+        largest / size
+    }
+}

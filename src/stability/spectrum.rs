@@ -1,0 +1,86 @@
+//! The eigenvalues at one speed, in an order, with the questions one asks of them.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Complex;
+
+use crate::stability::NotConverged;
+
+/// All eigenvalues of the problem at one speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    speed: f64,
+    distinct: Vec<Complex<f64>>,
+    multiplicity: usize,
+}
+
+/// One vibration mode's eigenvalue: of a complex pair the one with positive imaginary part, or a real one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ModeValue {
+    /// λ in 1/s.
+    pub eigenvalue: Complex<f64>,
+    /// How many modes share it by the problem's structure: 2 where x and y decouple, else 1.
+    pub multiplicity: usize,
+}
+
+impl ModeValue {
+    /// |Im λ|/2π in Hz.
+    pub fn frequency_hz(&self) -> f64 {
+        self.eigenvalue.im.abs() / TAU
+    }
+
+    /// ζ = −Re λ/|λ|, in −1..=1: negative where the mode grows, 1 where it is overdamped; 0 for λ = 0.
+    pub fn damping_ratio(&self) -> f64 {
+        let size = self.eigenvalue.norm();
+        if size == 0.0 { 0.0 } else { -self.eigenvalue.re / size }
+    }
+}
+
+impl Spectrum {
+    /// Orders `eigenvalues` by frequency, then by real part; each stands for `multiplicity` equal ones.
+    pub(super) fn new(
+        speed: f64,
+        mut eigenvalues: Vec<Complex<f64>>,
+        multiplicity: usize,
+    ) -> Result<Self, NotConverged> {
+        if eigenvalues.is_empty() || !eigenvalues.iter().all(|l| l.re.is_finite() && l.im.is_finite()) {
+            return Err(NotConverged);
+        }
+        eigenvalues.sort_by(|a, b| {
+            (a.im.abs().total_cmp(&b.im.abs())).then(a.re.total_cmp(&b.re)).then(a.im.total_cmp(&b.im))
+        });
+        Ok(Self { speed, distinct: eigenvalues, multiplicity })
+    }
+
+    /// The speed in m/s.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Every eigenvalue, multiplicity included, in rising order of |Im λ|.
+    pub fn eigenvalues(&self) -> impl Iterator<Item = Complex<f64>> {
+        self.distinct.iter().flat_map(|&l| std::iter::repeat_n(l, self.multiplicity))
+    }
+
+    /// The modes in rising order of frequency: complex pairs once, real eigenvalues each.
+    pub fn modes(&self) -> impl Iterator<Item = ModeValue> {
+        let upper = self.distinct.iter().filter(|l| l.im >= 0.0);
+        upper.map(|&eigenvalue| ModeValue { eigenvalue, multiplicity: self.multiplicity })
+    }
+
+    /// The eigenvalue with the largest real part, the one with Im λ ≥ 0 of its pair.
+    pub fn rightmost(&self) -> Complex<f64> {
+        let rightmost = self.distinct.iter().max_by(|a, b| a.re.total_cmp(&b.re));
+        rightmost.map_or(Complex::new(0.0, 0.0), |l| Complex::new(l.re, l.im.abs()))
+    }
+
+    /// The largest growth rate max Re λ, in 1/s.
+    pub fn growth_rate(&self) -> f64 {
+        self.rightmost().re
+    }
+
+    /// Whether every Re λ < 0.
+    pub fn is_stable(&self) -> bool {
+        self.growth_rate() < 0.0
+    }
+}

@@ -1,0 +1,45 @@
+//! The robot at one pose, ready to be asked for its spectrum, modes and critical speed.
+
+use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration};
+use crate::robot::{Motion, Robot};
+use crate::stability::{CriticalSearch, Eigenproblem};
+
+/// Statics, motion and the small-vibration problem at one pose.
+#[derive(Clone, Debug)]
+pub struct Local {
+    /// Every cable's static shape.
+    pub statics: Statics,
+    /// L' and L'' of every cable.
+    pub rates: Vec<LengthRates>,
+    /// The problem of small vibrations, for every speed.
+    pub vibration: Vibration,
+    /// The same, reduced for the eigenvalue solver.
+    pub problem: Eigenproblem,
+}
+
+impl Local {
+    /// Computes all that does not depend on the speed.
+    ///
+    /// # Errors
+    /// An infeasible pose with its reason, or `NotConverged`; with the shapes that exist all the same.
+    pub fn new(robot: &Robot, motion: &Motion) -> Result<Self, Failure> {
+        let statics = mechanics::solve(robot, motion.position())?;
+        let failed = |statics: Statics| Failure {
+            reason: StaticsError::NotConverged { cable: 0 },
+            cables: statics.cables.into_iter().map(Some).collect(),
+        };
+        let Some(rates) = mechanics::length_rates(robot, &statics, motion.direction()) else {
+            return Err(failed(statics));
+        };
+        let vibration = Vibration::new(robot, &statics, &rates);
+        match Eigenproblem::new(&vibration) {
+            Ok(problem) => Ok(Self { statics, rates, vibration, problem }),
+            Err(_) => Err(failed(statics)),
+        }
+    }
+
+    /// A search for the critical speed up to `limit`, in m/s.
+    pub fn critical_search(&self, limit: f64) -> CriticalSearch<'_> {
+        CriticalSearch::new(&self.vibration, &self.problem, limit)
+    }
+}
