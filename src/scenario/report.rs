@@ -149,7 +149,7 @@ impl Report {
         let outcome = Local::new(robot, motion).map_err(|failure| failure_sentence(&failure)).and_then(|local| {
             let complete = || -> Result<Self, NotConverged> {
                 let mut report = Self::new(&local, &local.problem.spectrum(motion.speed())?);
-                report.set_critical(&local.critical_search(limit).run()?, limit);
+                report.set_critical(&local.critical_speed(limit)?, limit);
                 Ok(report)
             };
             complete().map_err(|error| sentence(&error.to_string()))
