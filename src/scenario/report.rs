@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError};
 use crate::robot::{Motion, Robot};
-use crate::stability::{Critical, Kind, NotConverged, Outcome, Spectrum};
+use crate::stability::{Critical, CriticalSearch, Kind, NotConverged, Outcome, Spectrum};
 use crate::study::Local;
 
 /// The name and version of the format.
@@ -154,10 +154,10 @@ impl Report {
         let outcome = Local::new(robot, motion).map_err(|failure| failure_sentence(&failure)).and_then(|local| {
             let mut complete = || -> Result<Self, NotConverged> {
                 let mut report = Self::new(&local, &local.problem.spectrum(motion.speed())?);
-                let mut search = local.critical_search(limit);
+                let mut search = CriticalSearch::new(limit);
                 let outcome = loop {
                     watch(search.searched_up_to());
-                    if let Some(outcome) = search.advance()? {
+                    if let Some(outcome) = search.advance(&local.vibration, &local.problem)? {
                         break outcome;
                     }
                 };
