@@ -1,5 +1,6 @@
 //! The scenario file: what is read, what is refused and how, and that nothing is lost in writing.
 #![cfg(feature = "scenario")]
+#![allow(clippy::float_cmp, reason = "numbers have to survive to the last bit")]
 
 use std::fs;
 
