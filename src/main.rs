@@ -34,11 +34,21 @@ fn main() -> std::process::ExitCode {
         cli::Start::Done(code) => return code,
         cli::Start::App { scenario } => scenario.map_or_else(|| presets::PRESETS[0].scenario(), |scenario| *scenario),
     };
+    // For pictures and tests; otherwise the system's theme counts.
+    let theme = match std::env::var("TAUTLINE_THEME").unwrap_or_default().as_str() {
+        "light" => Some(eframe::egui::Theme::Light),
+        "dark" => Some(eframe::egui::Theme::Dark),
+        _ => None,
+    };
     let viewport =
         eframe::egui::ViewportBuilder::default().with_inner_size([1280.0, 800.0]).with_min_inner_size([340.0, 480.0]);
     let options = eframe::NativeOptions { viewport, ..Default::default() };
-    let create: eframe::AppCreator<'static> =
-        Box::new(|context| Ok(Box::new(Tautline::new(&context.egui_ctx, scenario))));
+    let create: eframe::AppCreator<'static> = Box::new(|context| {
+        if let Some(theme) = theme {
+            context.egui_ctx.set_theme(theme);
+        }
+        Ok(Box::new(Tautline::new(&context.egui_ctx, scenario)))
+    });
     match eframe::run_native("Tautline", options, create) {
         Ok(()) => std::process::ExitCode::SUCCESS,
         Err(error) => cli::fail(&format!("the window could not be opened: {error}")),

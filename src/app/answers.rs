@@ -42,11 +42,6 @@ impl Answers {
         self.searching = None;
     }
 
-    /// The document's revision.
-    pub fn revision(&self) -> Revision {
-        self.revision
-    }
-
     /// Takes in a reply.
     pub fn take(&mut self, Reply { revision, update }: Reply) {
         match update {

@@ -55,6 +55,7 @@ pub struct OnShow<'a> {
 impl Tautline {
     /// The application with `scenario`, which must be physical.
     pub fn new(context: &egui::Context, scenario: Scenario) -> Self {
+        theme::install_fonts(context);
         let wake = context.clone();
         let mut answers = Answers::default();
         let compute = match Compute::start(move || wake.request_repaint()) {
@@ -175,7 +176,7 @@ impl Tautline {
         Panel::bottom("notice").show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
                 let colour = theme::warning(ui.visuals());
-                ui.colored_label(colour, "⚠");
+                ui.colored_label(colour, "▲");
                 ui.label(notice);
                 if ui.small_button("Dismiss").clicked() {
                     self.commands.push(Command::DismissNotice);

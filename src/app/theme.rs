@@ -1,6 +1,13 @@
 //! Colours: one accent, and a colour-blind-safe sequential map for tension.
 
-use eframe::egui::{Color32, Visuals};
+use eframe::egui::{Color32, Context, FontDefinitions, FontFamily, Visuals};
+
+/// Lets symbols such as ▲, ▶ and ↺ come from egui's monospaced font, since its proportional one has none.
+pub fn install_fonts(context: &Context) {
+    let mut fonts = FontDefinitions::default();
+    fonts.families.entry(FontFamily::Proportional).or_default().push("Hack".into());
+    context.set_fonts(fonts);
+}
 
 /// Nine stops of the viridis map (Smith and van der Walt, matplotlib, CC0), dark to light.
 const VIRIDIS: [[u8; 3]; 9] = [

@@ -1,7 +1,7 @@
 //! What can be grabbed on the canvas: the platform, the arrow's tip, the background. All of it by keyboard, too.
 
 use eframe::egui::{
-    CursorIcon, EventFilter, Key, Painter, Pos2, Rect, Response, Sense, Stroke, Ui, Vec2, WidgetInfo, WidgetType,
+    CursorIcon, EventFilter, Key, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
 };
 
 use super::paint::{ARROW_GAP, arrow_tip};
@@ -69,8 +69,8 @@ pub fn ui(
 /// A thing to grab at `centre`, with a ring when it has the keyboard's focus.
 fn handle(ui: &Ui, painter: &Painter, name: &'static str, centre: Pos2, cursor: CursorIcon) -> Response {
     let rect = Rect::from_center_size(centre, Vec2::splat(GRAB));
-    let response = ui.interact(rect, ui.id().with(name), Sense::click_and_drag()).on_hover_cursor(cursor);
-    response.widget_info(|| WidgetInfo::labeled(WidgetType::Other, true, name));
+    let response = ui.interact(rect, ui.scope_id().with(name), Sense::click_and_drag()).on_hover_cursor(cursor);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }

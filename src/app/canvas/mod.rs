@@ -16,7 +16,7 @@ use crate::app::state::{Command, Document, UiState};
 /// Draws the canvas in all the room there is, and turns drags and keys into commands.
 pub fn ui(state: &mut UiState, ui: &mut Ui, document: &Document, answers: &Answers, commands: &mut Vec<Command>) {
     let (rect, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
-    background.widget_info(|| egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "Robot canvas"));
+    background.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Robot canvas"));
     let scene = Scene::new(&document.scenario, answers, &state.playback);
     let view = View::new(rect, scene.frame, state.camera);
     let mut painter = ui.painter_at(rect);

@@ -19,15 +19,15 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
     let visuals = ui.visuals().clone();
     ui.horizontal(|ui| {
         ui.label(RichText::new("Critical speed").strong());
-        ui.weak("(frozen-time criterion ℹ)").on_hover_text(FROZEN_TIME);
+        ui.weak("(frozen-time criterion: what is it?)").on_hover_text(FROZEN_TIME);
     });
     match answers.critical() {
         CriticalState::Broken(reason) => {
-            ui.colored_label(theme::warning(&visuals), RichText::new("⚠ The analysis does not run").size(20.0));
+            ui.colored_label(theme::warning(&visuals), RichText::new("▲ The analysis does not run").size(20.0));
             ui.label(reason);
         }
         CriticalState::Failed(failed) => {
-            ui.colored_label(theme::warning(&visuals), RichText::new("⚠ No equilibrium").size(28.0));
+            ui.colored_label(theme::warning(&visuals), RichText::new("▲ No equilibrium").size(28.0));
             ui.label(failed.report.reason.as_deref().unwrap_or("This pose could not be analysed."));
             ui.weak("Drag the platform back, or change tensions or masses.");
         }
@@ -87,7 +87,7 @@ fn figures(ui: &mut Ui, document: &Document, answers: &Answers, answer: &Critica
         let (word, colour) =
             if stable { ("Stable", theme::calm(&visuals)) } else { ("Unstable", theme::warning(&visuals)) };
         let pose_shade = if answers.pose_is_current() { colour } else { visuals.weak_text_color() };
-        let text = format!("{word} today: largest growth rate {growth:.4} 1/s");
+        let text = format!("{word} at today's speed: growth rate {growth:.4} 1/s");
         ui.colored_label(pose_shade, text);
     }
 }

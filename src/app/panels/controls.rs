@@ -120,7 +120,7 @@ fn choices(ui: &mut Ui, edited: &mut Scenario) {
             ui.radio_value(&mut edited.linearisation, Linearisation::Secant, "Secant")
                 .on_hover_text("(N/λ) I: the paper's simplification, its Eq. 15");
             ui.radio_value(&mut edited.linearisation, Linearisation::Tangent, "Tangent")
-                .on_hover_text("(N/λ)(I − e eᵀ) + N'(λ) e eᵀ: the full derivative, its Eq. 14");
+                .on_hover_text("(N/λ)(I − e⊗e) + N'(λ) e⊗e: the full derivative, its Eq. 14");
         });
         ui.end_row();
         ui.label("Strain").on_hover_text("The strain measure of the axial law N(λ).");

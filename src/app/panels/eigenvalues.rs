@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use eframe::egui::{Id, Ui};
-use egui_plot::{MarkerShape, Plot, PlotPoints, Points, VLine};
+use eframe::egui::Ui;
+use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
 
 use super::near;
 use crate::app::answers::Answers;
@@ -32,13 +32,14 @@ pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec
         .include_x(0.2)
         .allow_scroll(false)
         .label_formatter(|hover| {
-            let point = hover.position();
+            let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
+                hover;
             Some(format!("{:.4} 1/s\n{:.4} Hz", point.x, point.y))
         });
     let shown = plot.show(ui, |plot| {
         plot.vline(VLine::new("Limit of stability", 0.0).color(visuals.weak_text_color()));
         let points = |name, points: Vec<[f64; 2]>, shape, colour, radius| {
-            Points::new(name, PlotPoints::from(points)).shape(shape).color(colour).radius(radius).id(Id::new(name))
+            Points::new(name, PlotPoints::from(points)).shape(shape).color(colour).radius(radius)
         };
         plot.points(points("Stable", stable, MarkerShape::Circle, theme::calm(&visuals), 3.0));
         plot.points(points("Unstable", unstable, MarkerShape::Up, theme::warning(&visuals), 6.0));

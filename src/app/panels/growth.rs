@@ -1,7 +1,7 @@
 //! The largest growth rate against speed, with the critical speed and today's.
 
 use eframe::egui::Ui;
-use egui_plot::{HLine, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
+use egui_plot::{HLine, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
 
 use crate::app::answers::{Answers, CriticalState};
 use crate::app::state::Document;
@@ -29,7 +29,8 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
         .allow_scroll(false)
         .legend(Legend::default())
         .label_formatter(|hover| {
-            let point = hover.position();
+            let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
+                hover;
             Some(format!("{:.3} m/s\n{:.4} 1/s", point.x, point.y))
         })
         .show(ui, |plot| {

@@ -42,7 +42,7 @@ fn playback(
     );
     ui.label(what);
     ui.horizontal_wrapped(|ui| {
-        let label = if playback.playing { "⏸ Pause" } else { "▶ Play" };
+        let label = if playback.playing { "‖ Pause" } else { "▶ Play" };
         if ui.button(label).clicked() {
             playback.playing = !playback.playing;
         }
