@@ -43,7 +43,7 @@ fn main() -> std::process::ExitCode {
     let viewport =
         eframe::egui::ViewportBuilder::default().with_inner_size([1280.0, 800.0]).with_min_inner_size([340.0, 480.0]);
     let options = eframe::NativeOptions { viewport, ..Default::default() };
-    let create: eframe::AppCreator<'static> = Box::new(|context| {
+    let create: eframe::AppCreator<'static> = Box::new(move |context| {
         if let Some(theme) = theme {
             context.egui_ctx.set_theme(theme);
         }
