@@ -1,6 +1,6 @@
 //! The table of modes; a click on a row chooses the mode whose shape moves on the canvas.
 
-use eframe::egui::{Sense, Ui};
+use eframe::egui::{Label, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 
 use super::near;
@@ -62,7 +62,8 @@ pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec
                 ];
                 for cell in cells {
                     row.col(|ui| {
-                        ui.label(cell);
+                        // A selectable label would keep the click from the row.
+                        ui.add(Label::new(cell).selectable(false));
                     });
                 }
                 if row.response().clicked() {
