@@ -248,9 +248,9 @@ impl eframe::App for Tautline {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.notice_bar(ui);
         if ui.available_width() < NARROW {
-            self.narrow(ui)
+            self.narrow(ui);
         } else {
-            self.wide(ui)
+            self.wide(ui);
         }
         // Commands are carried out before the next frame; without one nothing would be seen of them.
         if !self.commands.is_empty() {

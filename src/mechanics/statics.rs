@@ -110,12 +110,16 @@ pub enum StaticsError {
         /// The cable, 0-based.
         cable: usize,
     },
+    /// The shapes were found, but their motion or their vibration leaves the range of floating point.
+    #[error("the motion or the vibration of this robot cannot be computed in floating point")]
+    OutOfRange,
 }
 
 impl StaticsError {
-    /// The cable to blame, 0-based.
-    pub fn cable(&self) -> usize {
-        match *self {
+    /// The cable to blame, 0-based, where it is one.
+    pub fn cable(&self) -> Option<usize> {
+        Some(match *self {
+            Self::OutOfRange => return None,
             Self::NotConverged { cable } => cable,
             Self::Infeasible(reason) => match reason {
                 Infeasible::AtAnchor { cable }
@@ -125,7 +129,7 @@ impl StaticsError {
                 | Infeasible::GoesSlack { cable } => cable,
                 Infeasible::OneLine { cables } => cables[0],
             },
-        }
+        })
     }
 }
 

@@ -129,7 +129,7 @@ pub fn camera(ui: &Ui, background: &Response, view: &View, camera: &mut Camera) 
         let wheel = (f64::from(input.smooth_scroll_delta().y) / 300.0).exp();
         f64::from(input.zoom_delta()) * wheel
     });
-    if factor == 1.0 {
+    if (factor - 1.0).abs() < 1e-9 {
         return;
     }
     let zoom = (camera.zoom * factor).clamp(0.2, 200.0);

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::app::answers::Answers;
 use crate::app::state::Playback;
-use crate::compute::protocol::ModeShape;
+use crate::compute::protocol::{DrawnShape, ModeShape};
 use crate::robot::TensionLaw;
 use crate::scenario::Scenario;
 
@@ -59,7 +59,7 @@ impl Scene {
             .iter()
             .enumerate()
             .map(|(i, cable)| {
-                let (nodes, forces) = shape(answers, i);
+                let DrawnShape { nodes, axial_forces: forces } = shape(answers, i);
                 let vibrating = answers.shape().map(|mode| displaced(&nodes, mode, i, playback, width));
                 CableLine {
                     anchor: cable.anchor,
@@ -106,14 +106,16 @@ fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     })
 }
 
-/// Nodes and axial forces of cable i as far as they are known.
-fn shape(answers: &Answers, i: usize) -> (Vec<[f64; 2]>, Vec<f64>) {
+/// The shape of cable i as far as it is known.
+fn shape(answers: &Answers, i: usize) -> DrawnShape {
     if let Some(failed) = answers.failed() {
         return failed.shapes.get(i).cloned().flatten().unwrap_or_default();
     }
-    let Some(pose) = answers.pose() else { return Default::default() };
-    let nodes = pose.report.cables.get(i).map(|cable| cable.nodes.clone());
-    (nodes.unwrap_or_default(), pose.axial_forces.get(i).cloned().unwrap_or_default())
+    let known = answers.pose().and_then(|pose| Some((pose.report.cables.get(i)?, pose.axial_forces.get(i)?)));
+    known.map_or_else(DrawnShape::default, |(cable, forces)| DrawnShape {
+        nodes: cable.nodes.clone(),
+        axial_forces: forces.clone(),
+    })
 }
 
 /// The nodes moved by Re(q e^{iφ}), the largest displacement `playback.amplitude` of the robot's width.
@@ -138,6 +140,9 @@ pub fn phase_advance(mode: &ModeShape, playback: &Playback, seconds: f64) -> f64
 
 #[cfg(test)]
 mod tests {
+    // The frames compared are coordinates copied, not computed.
+    #![expect(clippy::float_cmp)]
+
     use super::*;
     use crate::scenario::presets;
 

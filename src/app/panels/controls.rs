@@ -104,7 +104,7 @@ fn row(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, field: &Field) {
 
 /// Equal, or both no numbers: a typed NaN must not come back every frame.
 fn same(a: f64, b: f64) -> bool {
-    a.to_bits() == b.to_bits() || a == b
+    a.total_cmp(&b).is_eq()
 }
 
 /// Twelve digits: without the last ones that a unit's factor may spoil.
