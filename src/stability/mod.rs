@@ -1,10 +1,12 @@
 //! Eigenvalues, mode shapes and the critical speed of a [`crate::mechanics::Vibration`].
 
+mod characteristic;
 mod critical;
 mod dense;
 mod modes;
 mod spectrum;
 
+pub use characteristic::{Characteristic, LogDeterminant};
 pub use critical::{Critical, CriticalSearch, Kind, Outcome, SCAN_STEP, Sample};
 pub use dense::Eigenproblem;
 pub use modes::{Mode, Polarisation, mode};
