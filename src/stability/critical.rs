@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 
 use crate::mechanics::Vibration;
+use crate::stability::crossing::{Search, first_crossing};
 use crate::stability::{Eigenproblem, NotConverged, Polarisation, mode};
 
 /// The paper's step of the speed, in m/s.
@@ -129,6 +130,25 @@ impl CriticalSearch {
             return describe(vibration, problem, critical).map(|c| Some(Outcome::Found(c)));
         }
         Ok((speed >= self.limit).then_some(Outcome::NoneUpTo(self.limit)))
+    }
+}
+
+/// The first crossing by structure, up to `limit` (m/s), without a scan; `None` where the dense scan must decide: in
+/// doubt, and without damping.
+pub fn structured(vibration: &Vibration, limit: f64) -> Option<Outcome> {
+    let damping = vibration.damping;
+    if damping.alpha == 0.0 && damping.beta == 0.0 {
+        return None;
+    }
+    match first_crossing(vibration, limit) {
+        Search::Doubt => None,
+        Search::NoneUpTo => Some(Outcome::NoneUpTo(limit)),
+        Search::Crossing { omega, speed } => {
+            let eigenvalue = Complex::new(0.0, omega);
+            let mode = mode(vibration, speed, eigenvalue, Polarisation::default());
+            let kind = if omega > 0.0 { Kind::Flutter } else { Kind::Divergence };
+            Some(Outcome::Found(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() }))
+        }
     }
 }
 

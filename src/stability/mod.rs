@@ -1,13 +1,15 @@
 //! Eigenvalues, mode shapes and the critical speed of a [`crate::mechanics::Vibration`].
 
+mod bounds;
 mod characteristic;
 mod critical;
+mod crossing;
 mod dense;
 mod modes;
 mod spectrum;
 
 pub use characteristic::{Characteristic, LogDeterminant};
-pub use critical::{Critical, CriticalSearch, Kind, Outcome, SCAN_STEP, Sample};
+pub use critical::{Critical, CriticalSearch, Kind, Outcome, SCAN_STEP, Sample, structured};
 pub use dense::Eigenproblem;
 pub use modes::{Mode, Polarisation, mode};
 pub use spectrum::{ModeValue, Spectrum};
