@@ -41,10 +41,8 @@ pub(super) struct Bounds {
     lowest: f64,
     /// The square of a frequency above every undamped one.
     highest: f64,
-    /// Time of a wave along all cables, of each direction, in s: the modes per rad/s times π.
+    /// The longest time of a wave along a cable, in s: the modes of the cable per rad/s, times π.
     travel: f64,
-    /// The same of the slowest cable and direction.
-    longest_travel: f64,
 }
 
 /// One element's flow and stiffness in the units of the bounds.
@@ -86,7 +84,6 @@ impl Bounds {
             lowest: 0.0,
             highest: 0.0,
             travel: 0.0,
-            longest_travel: 0.0,
         };
         let (mut compliance, mut hub_stiffness) = (0.0_f64, 0.0);
         for chain in &vibration.chains {
@@ -95,7 +92,7 @@ impl Bounds {
                 Hub::Fixed => None,
             };
             let (mut stretch, mut mass, mut softest) = (0.0, 0.0, f64::INFINITY);
-            let mut travels = [0.0, 0.0];
+            let mut travel = 0.0;
             for element in &chain.elements {
                 let one = Flow::of(element);
                 let largest = |pair: [f64; 2]| pair[0].abs().max(pair[1].abs());
@@ -114,9 +111,7 @@ impl Bounds {
                 bounds.acceleration = bounds.acceleration.max(largest(one.rate) / impedance);
                 bounds.curvature = bounds.curvature.max(0.5 * (one.rate[1] - one.rate[0]).abs() / one.mass);
                 bounds.highest = bounds.highest.max(12.0 * one.elastic[1] / one.mass);
-                for (travel, elastic) in travels.iter_mut().zip(one.elastic) {
-                    *travel += (one.mass / elastic).sqrt();
-                }
+                travel += (one.mass / one.elastic[0]).sqrt();
                 stretch += 1.0 / one.elastic[0];
                 mass += one.mass;
                 softest = softest.min(one.elastic[0]);
@@ -125,8 +120,7 @@ impl Bounds {
             let n = chain.elements.len() as f64;
             compliance = compliance.max(4.0 / std::f64::consts::PI.powi(2) * mass * n / softest);
             hub_stiffness += 1.0 / stretch;
-            bounds.travel += travels[0] + travels[1];
-            bounds.longest_travel = bounds.longest_travel.max(travels[0]);
+            bounds.travel = bounds.travel.max(travel);
         }
         let hub = match vibration.hub {
             Hub::Platform(mass) => mass / hub_stiffness,
@@ -179,14 +173,15 @@ impl Bounds {
         shut * (1.0 + MARGIN)
     }
 
-    /// A step in ω (rad/s) that is small against the mean spacing of the frequencies.
+    /// The spacing of the frequencies (rad/s) of the cable in which a wave travels longest.
     pub(super) fn frequency_step(&self) -> f64 {
         std::f64::consts::PI / self.travel
     }
 
-    /// A step in v (m/s) in which frequencies up to `omega` move little against the spacing of one cable's.
-    pub(super) fn speed_step(&self, omega: f64) -> f64 {
-        // Frequencies fall as 1 − (s v)², so dω/dv is about −2 s ω where s v = 1.
-        std::f64::consts::PI / (self.longest_travel * 2.0 * self.slowness * omega)
+    /// The step in v (m/s) in which a frequency of `omega` moves by that spacing, near `speed`.
+    pub(super) fn speed_step(&self, omega: f64, speed: f64) -> f64 {
+        // A string's frequencies fall as 1 − (s v)²; this has the steepest slope before they are zero.
+        let slope = 2.0 * self.slowness * (self.slowness * speed).min(1.0) * omega;
+        self.frequency_step() / slope
     }
 }

@@ -16,8 +16,8 @@ use crate::mechanics::Vibration;
 
 type C64 = Complex<f64>;
 
-/// A cell is at most this part of the mean spacing of the frequencies wide, so that no turn of the phase is overlooked
-/// between its corners, and moves them by at most this part of one cable's spacing.
+/// A cell is at most this part of the spacing of one cable's frequencies wide, and so high that they move by at most
+/// this part of it: no turn of the phase is overlooked between its corners.
 const LARGEST_CELL: f64 = 0.35;
 /// A strip is at most this high, in m/s.
 const LARGEST_STRIP: f64 = 0.5;
@@ -51,23 +51,27 @@ pub(super) enum Search {
 pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
     let Some(bounds) = Bounds::new(vibration) else { return Search::Doubt };
     let function = Characteristic::new(vibration);
-    let mut plane = Plane { function: &function, zeros: Vec::new(), evaluations: 0, cell: [1.0, 1.0] };
+    let mut plane = Plane { function: &function, bounds: &bounds, zeros: Vec::new(), evaluations: 0, cell: [1.0, 1.0] };
     let mut from = bounds.lowest_speed(limit);
     while from < limit {
-        let height =
-            LARGEST_STRIP.min(LARGEST_CELL * bounds.speed_step(bounds.highest_frequency(from + LARGEST_STRIP)));
-        let to = limit.min(from + height);
+        let to = limit.min(from + LARGEST_STRIP);
         let top = bounds.highest_frequency(to);
         let columns = (top / (LARGEST_CELL * bounds.frequency_step())).ceil();
-        plane.cell = [top / columns, height];
+        plane.cell = [top / columns, to - from];
         if plane.search(from, to, columns).is_none() {
             return Search::Doubt;
         }
-        let first = plane.zeros.iter().filter(|zero| zero.speed <= to).min_by(|a, b| a.speed.total_cmp(&b.speed));
-        if let Some(zero) = first {
+        if let Some(zero) = plane.first_from(from).filter(|zero| zero.speed <= to) {
             // What crosses first crosses to the right: d Re λ/dv = Im (D_v/D_ω).
-            let sound = zero.slope.im > 0.0 && zero.speed >= from - SAME * height;
+            let sound = zero.slope.im > 0.0;
             return if sound { Search::Crossing { omega: zero.omega, speed: zero.speed } } else { Search::Doubt };
+        }
+        let missed = |zero: &Zero| zero.speed > 0.0 && zero.speed < from;
+        if plane.zeros.iter().any(missed) {
+            return Search::Doubt;
+        }
+        if std::env::var("DBG").is_ok() {
+            eprintln!("{from:.3}..{to:.3} top {top:.2} columns {columns} evals {} {bounds:?}", plane.evaluations);
         }
         from = to;
     }
@@ -114,6 +118,7 @@ struct Cell {
 /// The plane of ω and v with what has been found in it.
 struct Plane<'a> {
     function: &'a Characteristic,
+    bounds: &'a Bounds,
     zeros: Vec<Zero>,
     evaluations: usize,
     /// The size of the first cells, in rad/s and m/s.
@@ -121,22 +126,30 @@ struct Plane<'a> {
 }
 
 impl Plane<'_> {
+    /// The first of the zeros from a speed on.
+    fn first_from(&self, from: f64) -> Option<&Zero> {
+        let from = from - SAME * self.cell[1];
+        self.zeros.iter().filter(|zero| zero.speed >= from).min_by(|a, b| a.speed.total_cmp(&b.speed))
+    }
+
     /// Finds all zeros below the first one between two speeds; `None` in doubt.
     fn search(&mut self, from: f64, to: f64, columns: f64) -> Option<()> {
         let mut left = [self.at(0.0, from), self.at(0.0, to)];
         let mut cells = Vec::new();
         let mut column = 0.0;
+        let mut first = self.first_from(from).map_or(f64::INFINITY, |zero| zero.speed);
         while column < columns {
             column += 1.0;
             let omega = column * self.cell[0];
             let right = [self.at(omega, from), self.at(omega, to)];
             cells.push(Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] });
             while let Some(cell) = cells.pop() {
-                if self.zeros.iter().any(|zero| zero.speed <= cell.lower[0].speed) || self.is_free(&cell) {
+                if first <= cell.lower[0].speed || !self.is_eligible(&cell) || self.is_free(&cell) {
                     continue;
                 }
                 if let Some(zero) = self.zero_in(&cell) {
                     self.zeros.push(zero);
+                    first = self.first_from(from).map_or(f64::INFINITY, |zero| zero.speed);
                     cells.push(cell);
                     continue;
                 }
@@ -183,16 +196,27 @@ impl Plane<'_> {
         [in_omega(a, b).max(in_omega(c, d)), in_speed(a, c).max(in_speed(b, d))]
     }
 
+    /// Whether something can cross in the cell.
+    fn is_eligible(&self, cell: &Cell) -> bool {
+        cell.lower[0].omega <= self.bounds.highest_frequency(cell.upper[0].speed)
+    }
+
     fn is_free(&self, cell: &Cell) -> bool {
         let [in_omega, in_speed] = self.changes(cell);
-        in_omega <= 1.0 && in_speed <= 1.0
+        in_omega <= 1.0 && in_speed <= 1.0 && !self.is_tall(cell)
+    }
+
+    /// Whether frequencies may move so far within the cell that a turn of the phase could be overlooked.
+    fn is_tall(&self, cell: &Cell) -> bool {
+        let corner = &cell.upper[1];
+        cell.size()[1] > LARGEST_CELL * self.bounds.speed_step(corner.omega, corner.speed)
     }
 
     /// The cell in two, the lower or left one first, across the direction in which it is less clearly free.
     fn halves(&mut self, cell: &Cell) -> [Cell; 2] {
         let [in_omega, in_speed] = self.changes(cell);
         let ([a, b], [c, d]) = (cell.lower, cell.upper);
-        if in_omega >= in_speed {
+        if in_omega >= in_speed && !self.is_tall(cell) {
             let omega = 0.5 * (a.omega + b.omega);
             let (low, high) = (self.at(omega, a.speed), self.at(omega, c.speed));
             [Cell { lower: [a, low], upper: [c, high] }, Cell { lower: [low, b], upper: [high, d] }]
