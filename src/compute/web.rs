@@ -21,8 +21,10 @@ pub struct Compute {
     worker: Worker,
     shared: Rc<RefCell<Shared>>,
     /// Kept alive for as long as the worker may call them.
-    _listeners: (Closure<dyn FnMut(MessageEvent)>, Closure<dyn FnMut(ErrorEvent)>),
+    _listeners: Listeners,
 }
+
+type Listeners = (Closure<dyn FnMut(MessageEvent)>, Closure<dyn FnMut(ErrorEvent)>);
 
 #[derive(Default)]
 struct Shared {

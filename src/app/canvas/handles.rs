@@ -38,7 +38,10 @@ pub fn ui(
         motion.position = [motion.position[0] + x * step, motion.position[1] + y * step];
     }
     let [x, y] = motion.position;
-    platform.on_hover_text(format!("Platform at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it, with Shift finely."));
+    if !platform.dragged() {
+        let text = format!("Platform at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it, with Shift finely.");
+        platform.on_hover_text(text);
+    }
 
     let tip = handle(ui, painter, "Velocity", arrow_tip(view, scene), CursorIcon::Grab);
     if let Some(grabbed) = drag(ui, &tip, arrow_tip(view, scene)) {
@@ -57,10 +60,12 @@ pub fn ui(
         let [x, y] = motion.direction;
         motion.direction = [cosine * x - sine * y, sine * x + cosine * y];
     }
-    tip.on_hover_text(format!(
-        "Velocity {:.2} m/s. Drag it for direction and speed; keys: ← → turn, ↑ ↓ speed, with Shift finely.",
-        motion.speed
-    ));
+    if !tip.dragged() {
+        let speed = motion.speed;
+        tip.on_hover_text(format!(
+            "Velocity {speed:.2} m/s. Drag it for direction and speed; keys: ← → turn, ↑ ↓ speed, with Shift finely."
+        ));
+    }
     if scenario.motion != document.scenario.motion {
         commands.push(Command::Edit(Box::new(scenario)));
     }
