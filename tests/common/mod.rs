@@ -41,12 +41,7 @@ pub fn same_multiset(actual: &[Complex<f64>], expected: &[Complex<f64>], toleran
 }
 
 /// Gives the expected value `j` a partner, moving others to theirs where needed (Kuhn's algorithm).
-fn place(
-    j: usize,
-    near: &impl Fn(usize, usize) -> bool,
-    partner: &mut [Option<usize>],
-    tried: &mut [bool],
-) -> bool {
+fn place(j: usize, near: &impl Fn(usize, usize) -> bool, partner: &mut [Option<usize>], tried: &mut [bool]) -> bool {
     for i in 0..partner.len() {
         if near(i, j) && !tried[i] {
             tried[i] = true;
