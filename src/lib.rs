@@ -23,12 +23,12 @@ pub mod robot;
 pub mod stability;
 pub mod study;
 
-// #[cfg(feature = "app")]
-// pub mod app;
+#[cfg(feature = "app")]
+pub mod app;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod cli;
-// #[cfg(feature = "compute")]
-// pub mod compute;
+#[cfg(feature = "compute")]
+pub mod compute;
 #[cfg(feature = "scenario")]
 pub mod scenario;
 

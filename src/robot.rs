@@ -104,22 +104,32 @@ pub struct Robot {
 pub struct Fault {
     /// The field's path in a scenario file, such as `cables[2].anchor`.
     pub path: String,
-    /// The value found, as text.
+    /// The value found, as text; [`Fault::MISSING`] where there is none.
     pub value: String,
     /// What is allowed.
     pub allowed: String,
 }
 
 impl Fault {
+    /// Stands for the value of a required field that is not there.
+    pub const MISSING: &'static str = "missing";
+
     /// A fault at `path`, where `value` was found and `allowed` says what may stand there.
     pub fn new(path: impl Into<String>, value: impl fmt::Display, allowed: impl Into<String>) -> Self {
         Self { path: path.into(), value: value.to_string(), allowed: allowed.into() }
+    }
+
+    /// The same for a number; very large and very small ones get an exponent instead of hundreds of digits.
+    fn number(path: impl Into<String>, value: f64, allowed: impl Into<String>) -> Self {
+        Self::new(path, format_args!("{value:?}"), allowed)
     }
 }
 
 impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {} is not allowed: {}", self.path, self.value, self.allowed)
+        let Self { path, value, allowed } = self;
+        let verdict = if value == Self::MISSING { "" } else { " is not allowed" };
+        write!(f, "{path}: {value}{verdict}; allowed: {allowed}")
     }
 }
 
@@ -139,7 +149,7 @@ impl Robot {
         let mut faults = Vec::new();
         let mut check = |path: &str, value: f64, ok: bool, allowed: &str| {
             if !(ok && value.is_finite()) {
-                faults.push(Fault::new(path, value, allowed));
+                faults.push(Fault::number(path, value, allowed));
             }
         };
         let not_negative = "a finite number, 0 or more";
@@ -217,12 +227,12 @@ impl std::ops::Deref for Robot {
 fn check_products(spec: &RobotSpec, faults: &mut Vec<Fault>) {
     let stiffness = spec.youngs_modulus * spec.area;
     if !stiffness.is_normal() {
-        let allowed = "E times A must stay within the range of floating-point numbers";
-        faults.push(Fault::new("cable.youngs_modulus", spec.youngs_modulus, allowed));
+        let allowed = "a value whose product with cable.area is within the range of floating-point numbers";
+        faults.push(Fault::number("cable.youngs_modulus", spec.youngs_modulus, allowed));
     }
     if !(spec.mass_per_length * spec.gravity).is_finite() || !(spec.platform_mass * spec.gravity).is_finite() {
-        let allowed = "weights must stay within the range of floating-point numbers";
-        faults.push(Fault::new("gravity", spec.gravity, allowed));
+        let allowed = "a value whose products with the masses are within the range of floating-point numbers";
+        faults.push(Fault::number("gravity", spec.gravity, allowed));
     }
 }
 
@@ -232,10 +242,11 @@ fn check_cables(cables: &[Cable], faults: &mut Vec<Fault>) -> Option<[usize; 2]>
         let allowed = format!("{} to {} cables", CABLES.start(), CABLES.end());
         faults.push(Fault::new("cables", format!("a list of {}", cables.len()), allowed));
     }
-    for (j, b) in cables.iter().enumerate() {
+    // Of a list that is far too long only the first are compared, each with all before it.
+    for (j, b) in cables.iter().enumerate().take(*CABLES.end()) {
         for (i, a) in cables[..j].iter().enumerate() {
             if (a.anchor - b.anchor).norm() < COINCIDENT {
-                let value = format!("[{}, {}]", b.anchor.x, b.anchor.y);
+                let value = format!("[{:?}, {:?}]", b.anchor.x, b.anchor.y);
                 let allowed = format!("a point that differs from cables[{i}].anchor");
                 faults.push(Fault::new(format!("cables[{j}].anchor"), value, allowed));
             }
@@ -270,23 +281,22 @@ impl Motion {
         let mut faults = Vec::new();
         for (name, vector) in [("position", position), ("direction", direction)] {
             for (j, coordinate) in vector.iter().enumerate().filter(|(_, c)| !c.is_finite()) {
-                faults.push(Fault::new(format!("motion.{name}[{j}]"), coordinate, "a finite number"));
+                faults.push(Fault::number(format!("motion.{name}[{j}]"), *coordinate, "a finite number"));
             }
         }
         if !(speed.is_finite() && speed >= 0.0) {
-            faults.push(Fault::new("motion.speed", speed, "a finite number, 0 or more (turn the direction round)"));
+            let allowed = "a finite number, 0 or more (turn the direction round to go back)";
+            faults.push(Fault::number("motion.speed", speed, allowed));
         }
-        // Scaled by the largest component first: the square of 1e-200 is zero, and of 1e200 infinite.
-        let scaled = direction / direction.amax();
+        // A unit vector stays as it is, so that a motion that is written and read again is the same to the last bit.
+        // Others are scaled by their largest component first: the square of 1e-200 is zero, and of 1e200 infinite.
+        let is_unit = (direction.norm_squared() - 1.0).abs() <= 4.0 * f64::EPSILON;
+        let unit = if is_unit { direction } else { (direction / direction.amax()).normalize() };
         if direction.amax() == 0.0 {
-            let value = format!("[{}, {}]", direction.x, direction.y);
+            let value = format!("[{:?}, {:?}]", direction.x, direction.y);
             faults.push(Fault::new("motion.direction", value, "a vector that is not zero"));
         }
-        if faults.is_empty() {
-            Ok(Self { position, direction: scaled.normalize(), speed })
-        } else {
-            Err(Faults(faults))
-        }
+        if faults.is_empty() { Ok(Self { position, direction: unit, speed }) } else { Err(Faults(faults)) }
     }
 
     /// The platform's position, in metres.
@@ -310,9 +320,14 @@ impl Motion {
 /// # Errors
 /// None: the robot is physical, as the tests show.
 pub fn paper() -> Result<Robot, Faults> {
+    Robot::new(paper_spec())
+}
+
+/// What [`paper`] is made of.
+pub fn paper_spec() -> RobotSpec {
     let stiffening = |slope| TensionLaw::Hypot { horizontal: [50.0, slope, 0.0], vertical: [45.0, 0.0, 0.0] };
     let cable = |x, y, tension| Cable { anchor: Vec2::new(x, y), tension };
-    Robot::new(RobotSpec {
+    RobotSpec {
         gravity: 9.81,
         youngs_modulus: 125e6,
         area: 5e-5,
@@ -328,5 +343,5 @@ pub fn paper() -> Result<Robot, Faults> {
         elements: 10,
         damping: Damping { alpha: 0.5, beta: 0.005 },
         linearisation: Linearisation::Secant,
-    })
+    }
 }

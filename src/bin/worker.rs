@@ -1,11 +1,11 @@
-//! Start-up of the web worker.
+//! Start-up of the web worker: the engine without an interface.
 
 #[cfg(target_arch = "wasm32")]
-fn main() {
-    use wasm_bindgen::JsCast as _;
-    let scope = js_sys::global().unchecked_into::<web_sys::DedicatedWorkerGlobalScope>();
-    let _ = scope.post_message(&"ready".into());
+fn main() -> Result<(), wasm_bindgen::JsValue> {
+    console_error_panic_hook::set_once();
+    tautline::compute::run_worker()
 }
 
+/// On the desktop a thread does the worker's work.
 #[cfg(not(target_arch = "wasm32"))]
 fn main() {}

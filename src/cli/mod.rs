@@ -1,1 +1,135 @@
-//! The command line.
+//! The command line: one file per verb. Standard output carries results only, standard error one line per fault.
+
+mod analyze;
+mod example;
+mod text;
+
+use std::ffi::OsString;
+use std::io::{self, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::scenario::Scenario;
+
+/// What the command line asks for.
+#[derive(Debug)]
+pub enum Start {
+    /// The desktop application, with this scenario if one is given.
+    App {
+        /// Read from the file on the command line, and physical.
+        scenario: Option<Box<Scenario>>,
+    },
+    /// Nothing more: all is done and told.
+    Done(ExitCode),
+}
+
+/// The exit code for bad input.
+const BAD_INPUT: u8 = 2;
+/// The exit code where results could not be written.
+const NOT_WRITTEN: u8 = 1;
+
+/// Critical speed of cable-driven parallel robots.
+///
+/// Without a command, opens the desktop application, with the scenario FILE if one is given.
+#[derive(Debug, Parser)]
+#[command(name = "tautline", version, args_conflicts_with_subcommands = true, after_help = EXIT_CODES)]
+struct Args {
+    /// A scenario file (JSON) to open in the desktop application; - reads standard input.
+    file: Option<PathBuf>,
+    #[command(subcommand)]
+    verb: Option<Verb>,
+}
+
+const EXIT_CODES: &str = "\
+Start from a built-in scenario:
+  tautline example paper > robot.json
+  tautline analyze robot.json
+
+Exit codes: 0 done, also where the robot cannot be at rest in its pose; 2 bad input, one line per fault on standard \
+error.";
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    Analyze(analyze::Args),
+    Example(example::Args),
+}
+
+/// What a verb prints on standard output, or one line per fault.
+type Answer = Result<String, Vec<String>>;
+
+/// Does what the program's arguments ask for, but for opening the application.
+pub fn run() -> Start {
+    run_with(std::env::args_os())
+}
+
+/// The same for these arguments, the program's name first.
+fn run_with(arguments: impl Iterator<Item = OsString>) -> Start {
+    let answer = match Args::try_parse_from(arguments) {
+        Err(error) if error.use_stderr() => Err(vec![one_line(&error)]),
+        Err(help) => Ok(help.to_string()),
+        Ok(Args { verb: Some(Verb::Analyze(args)), .. }) => analyze::run(&args),
+        Ok(Args { verb: Some(Verb::Example(args)), .. }) => example::run(&args),
+        Ok(Args { verb: None, file: None }) => return Start::App { scenario: None },
+        Ok(Args { verb: None, file: Some(file) }) => match read_scenario(&file) {
+            Ok(scenario) => return Start::App { scenario: Some(Box::new(scenario)) },
+            Err(faults) => Err(faults),
+        },
+    };
+    Start::Done(match answer {
+        Ok(text) => print(&text),
+        Err(faults) => {
+            faults.iter().for_each(|fault| complain(fault));
+            ExitCode::from(BAD_INPUT)
+        }
+    })
+}
+
+/// Says on standard error what is wrong with the input, and gives the exit code for it.
+pub fn fail(fault: &str) -> ExitCode {
+    complain(&format!("tautline: {fault}"));
+    ExitCode::from(BAD_INPUT)
+}
+
+/// A line on standard error; where that is closed there is nobody to tell.
+fn complain(line: &str) {
+    let _ = writeln!(io::stderr(), "{line}");
+}
+
+/// Standard output closed by its reader is no fault: it has seen enough.
+fn print(text: &str) -> ExitCode {
+    let mut out = io::stdout();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            complain(&format!("standard output: {error}"));
+            ExitCode::from(NOT_WRITTEN)
+        }
+        _ => ExitCode::SUCCESS,
+    }
+}
+
+/// The first paragraph of clap's message.
+fn one_line(error: &clap::Error) -> String {
+    let message = error.to_string();
+    let paragraph: Vec<&str> = message.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    let paragraph = paragraph.join(" ");
+    let what = paragraph.strip_prefix("error: ").unwrap_or(&paragraph);
+    format!("tautline: {what}; tautline --help says what is possible")
+}
+
+/// The scenario in a file, or on standard input where `path` is `-`; faults with the file's name in front.
+fn read_scenario(path: &Path) -> Result<Scenario, Vec<String>> {
+    let standard_input = path.as_os_str() == "-";
+    let name = if standard_input { "standard input".into() } else { path.display().to_string() };
+    let fault = |what: &dyn std::fmt::Display| format!("{name}: {what}");
+    let bytes = if standard_input {
+        let mut bytes = Vec::new();
+        io::stdin().read_to_end(&mut bytes).map(|_| bytes)
+    } else {
+        std::fs::read(path)
+    };
+    let bytes = bytes.map_err(|error| vec![fault(&format_args!("cannot be read: {error}"))])?;
+    let text = String::from_utf8(bytes).map_err(|error| vec![fault(&format_args!("is not UTF-8 text: {error}"))])?;
+    Scenario::from_json(&text).map_err(|faults| faults.0.iter().map(|one| fault(one)).collect())
+}

@@ -70,20 +70,18 @@ pub enum Outcome {
     NoneUpTo(f64),
 }
 
-/// A search for the critical speed in slices, so that it can be watched and abandoned.
+/// A search for the critical speed of one problem in slices, so that it can be watched and abandoned.
 #[derive(Debug)]
-pub struct CriticalSearch<'a> {
-    vibration: &'a Vibration,
-    problem: &'a Eigenproblem,
+pub struct CriticalSearch {
     limit: f64,
     steps: u32,
     samples: Vec<Sample>,
 }
 
-impl<'a> CriticalSearch<'a> {
+impl CriticalSearch {
     /// A search from rest to `limit` (m/s).
-    pub fn new(vibration: &'a Vibration, problem: &'a Eigenproblem, limit: f64) -> Self {
-        Self { vibration, problem, limit, steps: 0, samples: Vec::new() }
+    pub fn new(limit: f64) -> Self {
+        Self { limit, steps: 0, samples: Vec::new() }
     }
 
     /// The speeds looked at so far, in rising order.
@@ -100,55 +98,57 @@ impl<'a> CriticalSearch<'a> {
     ///
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
-    pub fn run(mut self) -> Result<Outcome, NotConverged> {
+    pub fn run(mut self, vibration: &Vibration, problem: &Eigenproblem) -> Result<Outcome, NotConverged> {
         loop {
-            if let Some(outcome) = self.advance()? {
+            if let Some(outcome) = self.advance(vibration, problem)? {
                 return Ok(outcome);
             }
         }
     }
 
-    /// Looks at the next speed; `None` while the search goes on.
+    /// Looks at the next speed of the same `vibration`, whose `problem` is given with it; `None` while the search
+    /// goes on.
     ///
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
-    pub fn advance(&mut self) -> Result<Option<Outcome>, NotConverged> {
+    pub fn advance(&mut self, vibration: &Vibration, problem: &Eigenproblem) -> Result<Option<Outcome>, NotConverged> {
         let speed = (f64::from(self.steps) * SCAN_STEP).min(self.limit);
-        let growth_rate = self.problem.spectrum(speed)?.growth_rate();
+        let growth_rate = problem.spectrum(speed)?.growth_rate();
         self.steps += 1;
         self.samples.push(Sample { speed, growth_rate });
-        let undamped = self.problem.damping().alpha == 0.0 && self.problem.damping().beta == 0.0;
         // At rest nothing grows: without damping the real parts are zero but for rounding.
         if speed == 0.0 {
             return Ok(None);
         }
-        if growth_rate > if undamped { ROUNDING * self.problem.scale() } else { 0.0 } {
+        let undamped = problem.damping().alpha == 0.0 && problem.damping().beta == 0.0;
+        if growth_rate > if undamped { ROUNDING * problem.scale() } else { 0.0 } {
             let before = self.samples[self.samples.len() - 2].speed;
-            let critical = if undamped && before == 0.0 { 0.0 } else { self.refine(before, speed)? };
-            return self.describe(critical).map(|c| Some(Outcome::Found(c)));
+            let critical = if undamped && before == 0.0 { 0.0 } else { refine(problem, before, speed)? };
+            return describe(vibration, problem, critical).map(|c| Some(Outcome::Found(c)));
         }
         Ok((speed >= self.limit).then_some(Outcome::NoneUpTo(self.limit)))
     }
+}
 
-    /// The crossing between a stable and an unstable speed, by bisection: the unstable end of the last bracket.
-    fn refine(&self, mut stable: f64, mut unstable: f64) -> Result<f64, NotConverged> {
-        while unstable - stable > REFINED_TO {
-            let middle = 0.5 * (stable + unstable);
-            if self.problem.spectrum(middle)?.growth_rate() > 0.0 {
-                unstable = middle;
-            } else {
-                stable = middle;
-            }
+/// The crossing between a stable and an unstable speed, by bisection.
+fn refine(problem: &Eigenproblem, mut stable: f64, mut unstable: f64) -> Result<f64, NotConverged> {
+    while unstable - stable > REFINED_TO {
+        let middle = 0.5 * (stable + unstable);
+        if problem.spectrum(middle)?.growth_rate() > 0.0 {
+            unstable = middle;
+        } else {
+            stable = middle;
         }
-        Ok(0.5 * (stable + unstable))
     }
+    Ok(0.5 * (stable + unstable))
+}
 
-    fn describe(&self, speed: f64) -> Result<Critical, NotConverged> {
-        // Undamped, every real part is zero at rest: the mode that grows is seen just above.
-        let seen_at = if speed == 0.0 { NEAR_ZERO * SCAN_STEP } else { speed };
-        let eigenvalue = self.problem.spectrum(seen_at)?.rightmost();
-        let mode = mode(self.vibration, seen_at, eigenvalue, Polarisation::default());
-        let kind = if eigenvalue.im > ROUNDING * self.problem.scale() { Kind::Flutter } else { Kind::Divergence };
-        Ok(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() })
-    }
+/// The mode that crosses at the critical speed `speed`.
+fn describe(vibration: &Vibration, problem: &Eigenproblem, speed: f64) -> Result<Critical, NotConverged> {
+    // Undamped, every real part is zero at rest: the mode that grows is seen just above.
+    let seen_at = if speed == 0.0 { NEAR_ZERO * SCAN_STEP } else { speed };
+    let eigenvalue = problem.spectrum(seen_at)?.rightmost();
+    let mode = mode(vibration, seen_at, eigenvalue, Polarisation::default());
+    let kind = if eigenvalue.im > ROUNDING * problem.scale() { Kind::Flutter } else { Kind::Divergence };
+    Ok(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() })
 }

@@ -2,7 +2,7 @@
 
 use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration};
 use crate::robot::{Motion, Robot};
-use crate::stability::{CriticalSearch, Eigenproblem};
+use crate::stability::{CriticalSearch, Eigenproblem, NotConverged, Outcome};
 
 /// Statics, motion and the small-vibration problem at one pose.
 #[derive(Clone, Debug)]
@@ -38,8 +38,11 @@ impl Local {
         }
     }
 
-    /// A search for the critical speed up to `limit`, in m/s.
-    pub fn critical_search(&self, limit: f64) -> CriticalSearch<'_> {
-        CriticalSearch::new(&self.vibration, &self.problem, limit)
+    /// The critical speed, searched up to `limit` (m/s).
+    ///
+    /// # Errors
+    /// [`NotConverged`] where an eigenvalue problem could not be solved.
+    pub fn critical_speed(&self, limit: f64) -> Result<Outcome, NotConverged> {
+        CriticalSearch::new(limit).run(&self.vibration, &self.problem)
     }
 }

@@ -1,0 +1,28 @@
+//! `tautline example`: the built-in scenarios.
+
+use crate::cli::Answer;
+use crate::scenario::presets::{self, PRESETS};
+
+/// Print a built-in scenario as a scenario file; without a name, list them.
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// Which one.
+    name: Option<String>,
+}
+
+pub(super) fn run(args: &Args) -> Answer {
+    let Some(name) = &args.name else {
+        let entry = |preset: &presets::Preset| {
+            let sentences = preset.description.replace(". ", ".\n    ");
+            format!("{}: {}\n    {sentences}\n", preset.name, preset.title)
+        };
+        return Ok(PRESETS.iter().map(entry).collect());
+    };
+    match presets::find(name) {
+        Some(preset) => Ok(preset.scenario().to_json() + "\n"),
+        None => {
+            let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+            Err(vec![format!("tautline: no built-in scenario is called {name:?}; there are {}", names.join(", "))])
+        }
+    }
+}

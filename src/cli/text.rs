@@ -1,0 +1,172 @@
+//! The analysis as text for people.
+
+use std::f64::consts::TAU;
+use std::fmt::{self, Write as _};
+
+use crate::robot::{Linearisation, Motion, Strain, TensionLaw};
+use crate::scenario::report::{CriticalReport, KindReport};
+use crate::scenario::{Report, Scenario};
+
+/// Slower changes of length per metre of travel are none.
+const STILL: f64 = 1e-9;
+
+const CAVEAT: &str = "Note: the criterion freezes time, so a cable being reeled in looks unstable at every speed unless \
+                      damping hides it.";
+
+/// The whole analysis of `scenario`, which moves as `motion`.
+pub(super) fn report(scenario: &Scenario, motion: &Motion, report: &Report) -> String {
+    let mut text = String::new();
+    // Writing to a string does not fail.
+    let _ = write(&mut text, scenario, motion, report);
+    text
+}
+
+fn write(text: &mut String, scenario: &Scenario, motion: &Motion, report: &Report) -> fmt::Result {
+    heading(text, scenario, motion)?;
+    if !report.feasible {
+        writeln!(text, "\nNot feasible. {}", report.reason.as_deref().unwrap_or_default())?;
+        return Ok(());
+    }
+    cables(text, scenario, report)?;
+    stability(text, report)?;
+    match &report.critical {
+        Some(critical) => critical_speed(text, report, critical)?,
+        None => writeln!(text, "Critical speed: none found up to {} m/s", digits(report.searched_up_to, 6))?,
+    }
+    writeln!(text, "\n{CAVEAT}")
+}
+
+fn heading(text: &mut String, scenario: &Scenario, motion: &Motion) -> fmt::Result {
+    let cable = &scenario.cable;
+    let strain = match cable.strain {
+        Strain::Green => "Green",
+        Strain::Engineering => "engineering",
+    };
+    let linearisation = match scenario.linearisation {
+        Linearisation::Secant => "secant",
+        Linearisation::Tangent => "tangent",
+    };
+    let name = scenario.name.as_deref().unwrap_or("Robot without a name");
+    // No line breaks and no orders to the terminal.
+    writeln!(text, "{}", name.replace(char::is_control, " "))?;
+    writeln!(
+        text,
+        "{} cables: EA = {} N, {} kg/m, {strain} strain, {linearisation} stiffness, {} elements each; platform {} kg; \
+         damping α = {} 1/s, β = {} s",
+        scenario.cables.len(),
+        digits(cable.youngs_modulus * cable.area, 4),
+        digits(cable.mass_per_length, 4),
+        scenario.elements_per_cable,
+        digits(scenario.platform.mass, 4),
+        digits(scenario.damping.alpha, 4),
+        digits(scenario.damping.beta, 4),
+    )?;
+    let (position, direction) = (motion.position(), motion.direction());
+    writeln!(
+        text,
+        "Platform at ({}, {}) m, moving along ({}, {}) at {} m/s",
+        digits(position.x, 6),
+        digits(position.y, 6),
+        digits(direction.x, 4),
+        digits(direction.y, 4),
+        digits(motion.speed(), 6),
+    )
+}
+
+fn cables(text: &mut String, scenario: &Scenario, report: &Report) -> fmt::Result {
+    writeln!(text, "\nCable  tension set by  length     tension at  tension at  length per")?;
+    writeln!(text, "                       at rest    platform    winch       travel L'")?;
+    for (i, (cable, law)) in report.cables.iter().zip(&scenario.cables).enumerate() {
+        let law = match law.tension {
+            TensionLaw::Equilibrium => "equilibrium",
+            TensionLaw::Constant(_) => "constant",
+            TensionLaw::Hypot { .. } => "law",
+        };
+        writeln!(
+            text,
+            "{:>5}  {law:<14}  {:>8} m {:>9} N {:>9} N {:>11}  {}",
+            i + 1,
+            digits(cable.unstretched_length, 5),
+            digits(cable.tension_at_platform, 4),
+            digits(cable.tension_at_winch, 4),
+            format!("{:+.4}", cable.length_rate),
+            reeling(cable.length_rate),
+        )?;
+    }
+    Ok(())
+}
+
+/// What the winch does where a cable's length changes by `length_rate` per travel.
+fn reeling(length_rate: f64) -> &'static str {
+    if length_rate.abs() < STILL {
+        "at rest"
+    } else if length_rate > 0.0 {
+        "paid out"
+    } else {
+        "reeled in"
+    }
+}
+
+fn stability(text: &mut String, report: &Report) -> fmt::Result {
+    let rightmost = report.eigenvalues.iter().max_by(|a, b| a[0].total_cmp(&b[0]));
+    let Some(&[re, im]) = rightmost else { return Ok(()) };
+    let verdict = if re < 0.0 { "stable" } else { "unstable" };
+    let growth = digits(re, 4);
+    writeln!(text, "\nAt {} m/s: {verdict}, largest growth rate {growth} 1/s", digits(report.speed, 6))?;
+    let size = re.hypot(im);
+    let damping_ratio = if size == 0.0 { 0.0 } else { -re / size };
+    let frequency = digits(im.abs() / TAU, 4);
+    writeln!(text, "Least stable mode: {frequency} Hz, damping ratio {}", digits(damping_ratio, 3))
+}
+
+fn critical_speed(text: &mut String, report: &Report, critical: &CriticalReport) -> fmt::Result {
+    let how = match critical.kind {
+        KindReport::Flutter => format!("flutter at {} Hz", digits(critical.frequency_hz, 4)),
+        KindReport::Divergence => "divergence (no oscillation)".into(),
+    };
+    let (speed, cable) = (digits(critical.speed, 5), critical.cable);
+    let reeled = report.cables.get(cable - 1).map_or("", |cable| reeling(cable.length_rate));
+    writeln!(text, "Critical speed: {speed} m/s, {how}, in cable {cable}, which is {reeled}")?;
+    let margin = critical.speed - report.speed;
+    let (now, size) = (digits(report.speed, 6), digits(margin.abs(), 4));
+    if margin > 0.0 {
+        let part = 100.0 * report.speed / critical.speed;
+        writeln!(text, "Margin: {size} m/s above the {now} m/s of the scenario, which uses {part:.0} % of it")
+    } else {
+        writeln!(text, "Margin: none, the {now} m/s of the scenario exceeds it by {size} m/s")
+    }
+}
+
+/// `number` to so many significant digits, without zeros at the end; with an exponent where it is very large or small.
+fn digits(number: f64, significant: usize) -> String {
+    let rounded = format!("{number:.*e}", significant - 1);
+    let exponent = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());
+    let value: f64 = rounded.parse().unwrap_or(number);
+    match exponent {
+        Some(-5..=8) => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn digits_are_significant_ones() {
+        for (number, significant, text) in [
+            (11.299_042_8, 5, "11.299"),
+            (11.3, 5, "11.3"),
+            (0.271_550_2, 4, "0.2716"),
+            (-0.000_123_456, 3, "-0.000123"),
+            (6250.0, 4, "6250"),
+            (123_456.0, 4, "123500"),
+            (1.5e12, 4, "1.5e12"),
+            (1.5e-9, 4, "1.5e-9"),
+            (0.0, 4, "0"),
+            (40.0, 6, "40"),
+        ] {
+            assert_eq!(digits(number, significant), text);
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! The engine: takes the newest request, works in slices, replies as soon as something is known.
+//!
+//! The pose (shapes, spectrum, modes) of a new request is always served first: that is what follows the pointer. A
+//! search for the critical speed that is under way may finish if it does so soon; otherwise a drag would never show
+//! one, since each new position would start it again.
+
+use std::time::Duration;
+
+use nalgebra::Complex;
+use web_time::Instant;
+
+use super::protocol::{
+    CriticalAnswer, Failed, Job, ModeChoice, ModeRow, ModeShape, PoseAnswer, Reply, Request, Revision, Update, Which,
+};
+use crate::mechanics::CableShape;
+use crate::robot::Motion;
+use crate::scenario::report::{failure_sentence, sentence};
+use crate::scenario::{Report, Scenario};
+use crate::stability::{self, CriticalSearch, NotConverged, Outcome, Polarisation, Spectrum};
+use crate::study::Local;
+
+/// A slice of the search ends after this time, so that a newer request is seen soon.
+const SLICE: Duration = Duration::from_millis(8);
+/// A search that has run for longer is dropped for a newer pose.
+const PATIENCE: Duration = Duration::from_millis(400);
+/// The curve of growth rates goes on to this multiple of the critical speed and of today's, in this many points.
+const CURVE_MARGIN: f64 = 1.3;
+const CURVE_POINTS: u32 = 24;
+
+/// Serves requests in slices. Feed it with [`Engine::submit`], then call [`Engine::work`] until it returns `None`.
+#[derive(Default)]
+pub struct Engine {
+    /// The newest job, not begun.
+    job: Option<(Job, Instant)>,
+    /// A mode choice that came after the job.
+    choice: Option<ModeChoice>,
+    /// The newest pose; its search has not begun.
+    waiting: Option<Pose>,
+    /// The pose whose critical speed is being searched for or has been found.
+    running: Option<Pose>,
+}
+
+/// A pose under analysis.
+struct Pose {
+    revision: Revision,
+    local: Local,
+    motion: Motion,
+    spectrum: Spectrum,
+    choice: ModeChoice,
+    limit: f64,
+    submitted: Instant,
+    stage: Stage,
+}
+
+enum Stage {
+    Searching { search: CriticalSearch, since: Instant },
+    Curve { from: f64, next: u32, to: f64, points: Vec<[f64; 2]> },
+    Done,
+}
+
+/// What a slice of work gives: replies, possibly none, while there is more to do.
+type Slice = Vec<Reply>;
+
+impl Engine {
+    /// Takes a request; a newer one takes the place of an older one that has not begun.
+    pub fn submit(&mut self, request: Request) {
+        match request {
+            Request::Analyze(job) => {
+                self.choice = None;
+                self.job = Some((job, Instant::now()));
+            }
+            Request::Shape(choice) => self.choice = Some(choice),
+        }
+    }
+
+    /// Does one slice of work; `None` when there is nothing left to do.
+    pub fn work(&mut self) -> Option<Slice> {
+        if let Some((job, submitted)) = self.job.take() {
+            return Some(self.begin(&job, submitted));
+        }
+        if let Some(choice) = self.choice.take() {
+            let newest = self.waiting.as_mut().or(self.running.as_mut());
+            return Some(newest.map(|pose| pose.choose(choice)).unwrap_or_default());
+        }
+        let overtaken = self.waiting.is_some();
+        let Some(running) = self.running.as_mut() else {
+            self.running = Some(self.waiting.take()?);
+            return Some(Vec::new());
+        };
+        let finished = match &running.stage {
+            Stage::Searching { since, .. } => overtaken && since.elapsed() > PATIENCE,
+            Stage::Curve { .. } => overtaken,
+            Stage::Done => true,
+        };
+        if finished {
+            let mut next = self.waiting.take()?;
+            next.stage = Stage::searching(next.limit);
+            self.running = Some(next);
+            return Some(Vec::new());
+        }
+        Some(running.slice())
+    }
+
+    /// Serves the pose of a new job.
+    fn begin(&mut self, job: &Job, submitted: Instant) -> Slice {
+        self.waiting = None;
+        match Pose::new(job, submitted) {
+            Ok(pose) => {
+                let mut replies = vec![pose.reply(Update::Pose(Box::new(pose.answer())))];
+                if job.mode.which != Which::Critical {
+                    replies.extend(pose.shape());
+                }
+                self.waiting = Some(pose);
+                replies
+            }
+            Err(failed) => {
+                // Whatever is being searched for belongs to a pose that has been left.
+                self.running = None;
+                vec![Reply { revision: job.revision, update: Update::Failed(failed) }]
+            }
+        }
+    }
+}
+
+impl Stage {
+    fn searching(limit: f64) -> Self {
+        Self::Searching { search: CriticalSearch::new(limit), since: Instant::now() }
+    }
+}
+
+impl Pose {
+    fn new(job: &Job, submitted: Instant) -> Result<Self, Failed> {
+        let failed = |reason: String, speed: f64| Failed {
+            report: Report { searched_up_to: job.max_speed, ..Report::failed(&reason, speed) },
+            cable: None,
+            shapes: Vec::new(),
+        };
+        let parsed = Scenario::from_json(&job.scenario).and_then(|scenario| scenario.to_robot());
+        let (robot, motion) = parsed.map_err(|faults| failed(faults.to_string(), 0.0))?;
+        let local = Local::new(&robot, &motion).map_err(|failure| Failed {
+            cable: Some(failure.reason.cable()),
+            shapes: failure.cables.iter().map(|shape| shape.as_ref().map(drawn)).collect(),
+            ..failed(failure_sentence(&failure), motion.speed())
+        })?;
+        let spectrum = local.problem.spectrum(motion.speed());
+        let spectrum = spectrum.map_err(|error| failed(sentence(&error.to_string()), motion.speed()))?;
+        Ok(Self {
+            revision: job.revision,
+            local,
+            motion,
+            spectrum,
+            choice: job.mode,
+            limit: job.max_speed,
+            submitted,
+            stage: Stage::searching(job.max_speed),
+        })
+    }
+
+    fn reply(&self, update: Update) -> Reply {
+        Reply { revision: self.revision, update }
+    }
+
+    fn answer(&self) -> PoseAnswer {
+        let modes = self.spectrum.modes().map(|value| {
+            let mode = self.mode(self.motion.speed(), value.eigenvalue);
+            ModeRow {
+                eigenvalue: [value.eigenvalue.re, value.eigenvalue.im],
+                multiplicity: value.multiplicity,
+                frequency_hz: value.frequency_hz(),
+                damping_ratio: value.damping_ratio(),
+                cable_share: mode.cable_share,
+                platform_share: mode.platform_share,
+            }
+        });
+        PoseAnswer {
+            report: Report::new(&self.local, &self.spectrum),
+            axial_forces: self.local.statics.cables.iter().map(axial_forces).collect(),
+            modes: modes.collect(),
+        }
+    }
+
+    fn mode(&self, speed: f64, eigenvalue: Complex<f64>) -> stability::Mode {
+        let polarisation = if self.choice.along_x { Polarisation::X } else { Polarisation::Y };
+        stability::mode(&self.local.vibration, speed, eigenvalue, polarisation)
+    }
+
+    /// The chosen mode's shape at the scenario's speed.
+    fn shape(&self) -> Option<Reply> {
+        let wanted = match self.choice.which {
+            Which::Critical => self.spectrum.rightmost(),
+            Which::Near([re, im]) => Complex::new(re, im.abs()),
+        };
+        let distance = |l: &Complex<f64>| (l - wanted).norm_sqr();
+        let modes = self.spectrum.modes().map(|mode| mode.eigenvalue);
+        let nearest = modes.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+        let speed = self.motion.speed();
+        Some(self.reply(Update::Shape(Box::new(ModeShape::new(&self.mode(speed, nearest), speed, false)))))
+    }
+
+    /// Changes the chosen mode.
+    fn choose(&mut self, choice: ModeChoice) -> Slice {
+        self.choice = choice;
+        if choice.which == Which::Critical {
+            // The search that is under way or comes next gives this shape; one that has ended is done again.
+            if !matches!(self.stage, Stage::Searching { .. }) {
+                self.stage = Stage::searching(self.limit);
+            }
+            return Vec::new();
+        }
+        self.shape().into_iter().collect()
+    }
+
+    /// One slice of the search or of the curve.
+    fn slice(&mut self) -> Slice {
+        let begun = Instant::now();
+        let outcome = loop {
+            match self.step() {
+                Ok(replies) if replies.is_empty() && begun.elapsed() < SLICE && !matches!(self.stage, Stage::Done) => {}
+                outcome => break outcome,
+            }
+        };
+        let mut replies = outcome.unwrap_or_else(|error| {
+            self.stage = Stage::Done;
+            let reason = sentence(&error.to_string());
+            let report = Report { searched_up_to: self.limit, ..Report::failed(&reason, self.motion.speed()) };
+            vec![self.reply(Update::Failed(Failed { report, cable: None, shapes: Vec::new() }))]
+        });
+        if let (Stage::Searching { search, .. }, true) = (&self.stage, replies.is_empty()) {
+            replies.push(self.reply(Update::Searching(search.searched_up_to())));
+        }
+        replies
+    }
+
+    /// One eigenvalue problem of the search or of the curve.
+    fn step(&mut self) -> Result<Slice, NotConverged> {
+        match &mut self.stage {
+            Stage::Done => Ok(Vec::new()),
+            Stage::Searching { search, .. } => {
+                let Some(outcome) = search.advance(&self.local.vibration, &self.local.problem)? else {
+                    return Ok(Vec::new());
+                };
+                let curve: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
+                let from = search.searched_up_to();
+                let mut report = Report::new(&self.local, &self.spectrum);
+                report.set_critical(&outcome, self.limit);
+                let mut replies = vec![self.reply(Update::Critical(CriticalAnswer {
+                    critical: report.critical,
+                    searched_up_to: self.limit,
+                    curve,
+                    elapsed_ms: 1e3 * self.submitted.elapsed().as_secs_f64(),
+                }))];
+                self.stage = Stage::Done;
+                if let Outcome::Found(critical) = &outcome {
+                    if self.choice.which == Which::Critical {
+                        let mode = self.mode(critical.speed, critical.eigenvalue);
+                        let shape = ModeShape::new(&mode, critical.speed, true);
+                        replies.push(self.reply(Update::Shape(Box::new(shape))));
+                    }
+                    let to = CURVE_MARGIN * critical.speed.max(self.motion.speed()).max(from);
+                    self.stage = Stage::Curve { from, next: 1, to, points: Vec::new() };
+                } else if self.choice.which == Which::Critical {
+                    replies.extend(self.shape());
+                }
+                Ok(replies)
+            }
+            Stage::Curve { from, next, to, points } => {
+                let speed = *from + (*to - *from) * f64::from(*next) / f64::from(CURVE_POINTS);
+                points.push([speed, self.local.problem.spectrum(speed)?.growth_rate()]);
+                *next += 1;
+                if *next <= CURVE_POINTS {
+                    return Ok(Vec::new());
+                }
+                let points = std::mem::take(points);
+                self.stage = Stage::Done;
+                Ok(vec![self.reply(Update::Curve(points))])
+            }
+        }
+    }
+}
+
+fn axial_forces(shape: &CableShape) -> Vec<f64> {
+    shape.forces.iter().map(|force| force.norm()).collect()
+}
+
+fn drawn(shape: &CableShape) -> (Vec<[f64; 2]>, Vec<f64>) {
+    (shape.nodes.iter().map(|node| [node.x, node.y]).collect(), axial_forces(shape))
+}

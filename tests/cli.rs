@@ -1,0 +1,265 @@
+//! The command line as a shell sees it: what it prints where, and the exit codes.
+#![cfg(all(feature = "cli", not(target_arch = "wasm32")))]
+
+use std::fs;
+use std::io::Write as _;
+use std::path::PathBuf;
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+use tautline::scenario::{Report, Scenario, presets};
+
+struct Done {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+/// Runs `tautline` with `arguments` and `input` on standard input.
+fn tautline(arguments: &[&str], input: &str) -> Done {
+    let mut process = Command::new(env!("CARGO_BIN_EXE_tautline"))
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The program may end without reading.
+    let _ = process.stdin.take().unwrap().write_all(input.as_bytes());
+    let output = process.wait_with_output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Done { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+}
+
+/// Runs it where all must go well and quietly; gives standard output.
+fn succeed(arguments: &[&str], input: &str) -> String {
+    let Done { code, out, err } = tautline(arguments, input);
+    assert_eq!((code, err.as_str()), (Some(0), ""), "{arguments:?}");
+    out
+}
+
+/// Runs it where the input is bad; gives the lines on standard error.
+fn refuse(arguments: &[&str], input: &str) -> Vec<String> {
+    let Done { code, out, err } = tautline(arguments, input);
+    assert_eq!((code, out.as_str()), (Some(2), ""), "{arguments:?}: {err}");
+    assert!(!err.is_empty() && err.ends_with('\n'), "{err:?}");
+    err.lines().map(str::to_owned).collect()
+}
+
+fn analyze(input: &str, more: &[&str]) -> Value {
+    let arguments = [&["analyze", "-", "--json"], more].concat();
+    serde_json::from_str(&succeed(&arguments, input)).unwrap()
+}
+
+fn paper() -> Scenario {
+    presets::find("paper").unwrap().scenario()
+}
+
+fn at(x: f64) -> String {
+    let mut scenario = paper();
+    scenario.motion.position[0] = x;
+    scenario.to_json()
+}
+
+/// A file for one test.
+struct File(PathBuf);
+
+impl File {
+    fn new(name: &str, content: &[u8]) -> Self {
+        let path = std::env::temp_dir().join(format!("tautline-{}-{name}", std::process::id()));
+        fs::write(&path, content).unwrap();
+        Self(path)
+    }
+
+    fn path(&self) -> &str {
+        self.0.to_str().unwrap()
+    }
+}
+
+impl Drop for File {
+    fn drop(&mut self) {
+        let _ = fs::remove_file(&self.0);
+    }
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
+}
+
+#[test]
+fn json_has_the_whole_analysis() {
+    let report = analyze(&at(0.0), &[]);
+    assert_eq!(report["schema"], "tautline/analysis/1");
+    assert_eq!((&report["feasible"], &report["reason"]), (&Value::Bool(true), &Value::Null));
+    assert_eq!((number(&report["speed"]), number(&report["searched_up_to"])), (5.0, 40.0));
+    assert_eq!(report["eigenvalues"].as_array().unwrap().len(), 148);
+    let growth = report["eigenvalues"].as_array().unwrap().iter().map(|l| number(&l[0])).fold(f64::MIN, f64::max);
+    assert_eq!(number(&report["max_growth_rate"]), growth);
+    assert_eq!(report["stable"], Value::Bool(growth < 0.0));
+    // docs/theory.md section 9.
+    let critical = &report["critical"];
+    assert!((number(&critical["speed"]) - 11.2990).abs() < 1e-3, "{critical}");
+    assert!((number(&critical["frequency_hz"]) - 0.27155).abs() < 1e-4, "{critical}");
+    assert_eq!((&critical["kind"], &critical["cable"]), (&"flutter".into(), &4.into()));
+    let cables = report["cables"].as_array().unwrap();
+    assert_eq!(cables.len(), 4);
+    for (cable, scenario) in cables.iter().zip(paper().cables) {
+        for field in
+            ["unstretched_length", "tension_at_platform", "tension_at_winch", "length_rate", "length_curvature"]
+        {
+            assert!(number(&cable[field]).is_finite());
+        }
+        let nodes = cable["nodes"].as_array().unwrap();
+        assert_eq!(nodes.len(), 11);
+        let end = [number(&nodes[10][0]), number(&nodes[10][1])];
+        assert!((end[0] - scenario.anchor[0]).hypot(end[1] - scenario.anchor[1]) < 1e-9, "{end:?}");
+    }
+}
+
+#[test]
+fn json_is_the_report_of_the_library() {
+    let (robot, motion) = paper().to_robot().unwrap();
+    let report = Report::analyze(&robot, &motion, 12.0);
+    assert_eq!(succeed(&["analyze", "-", "--json", "--max-speed", "12"], &at(0.0)), report_line(&report));
+}
+
+fn report_line(report: &Report) -> String {
+    serde_json::to_string(report).unwrap() + "\n"
+}
+
+#[test]
+fn the_critical_speed_is_searched_as_far_as_told() {
+    let report = analyze(&at(0.0), &["--max-speed", "11"]);
+    assert_eq!((&report["critical"], number(&report["searched_up_to"])), (&Value::Null, 11.0));
+    let text = succeed(&["analyze", "-", "--max-speed", "11"], &at(0.0));
+    assert!(text.contains("Critical speed: none found up to 11 m/s"), "{text}");
+    let report = analyze(&at(0.0), &["--max-speed=11.4"]);
+    assert!((number(&report["critical"]["speed"]) - 11.2990).abs() < 1e-3, "{report}");
+}
+
+#[test]
+fn text_tells_people_what_matters() {
+    let file = File::new("text.json", at(0.0).as_bytes());
+    let text = succeed(&["analyze", file.path()], "");
+    for part in [
+        "Paper robot\n4 cables: EA = 6250 N,",
+        "Platform at (0, 0) m, moving along (1, 0) at 5 m/s",
+        "    1  equilibrium       10.908 m     166.6 N     185.7 N     +0.8911  paid out\n",
+        "    4  law               11.329 m     67.27 N     47.84 N     -0.9193  reeled in\n",
+        "At 5 m/s: stable, largest growth rate -0.182 1/s\n",
+        "Least stable mode: 0.9787 Hz, damping ratio 0.0296\n",
+        "Critical speed: 11.299 m/s, flutter at 0.2716 Hz, in cable 4, which is reeled in\n",
+        "Margin: 6.299 m/s above the 5 m/s of the scenario, which uses 44 % of it\n",
+        "freezes time",
+    ] {
+        assert!(text.contains(part), "{part:?} is not in\n{text}");
+    }
+    let mut fast = paper();
+    fast.motion.speed = 12.0;
+    let text = succeed(&["analyze", "-"], &fast.to_json());
+    assert!(text.contains("Margin: none, the 12 m/s of the scenario exceeds it by 0.701 m/s"), "{text}");
+}
+
+#[test]
+fn an_infeasible_pose_is_an_answer() {
+    let report = analyze(&at(8.0), &["--max-speed", "20"]);
+    assert_eq!(report["feasible"], false);
+    let reason = report["reason"].as_str().unwrap();
+    assert!(reason.contains("cable 1") && reason.ends_with('.'), "{reason}");
+    for field in ["critical", "max_growth_rate", "stable"] {
+        assert_eq!(report[field], Value::Null, "{field}");
+    }
+    for field in ["cables", "eigenvalues"] {
+        assert_eq!(report[field], Value::Array(Vec::new()), "{field}");
+    }
+    assert_eq!((number(&report["speed"]), number(&report["searched_up_to"])), (5.0, 20.0));
+    let text = succeed(&["analyze", "-"], &at(8.0));
+    assert!(text.contains("Not feasible.") && text.contains(reason), "{text}");
+}
+
+#[test]
+fn bad_scenarios_are_refused_with_a_line_per_fault() {
+    let bad = at(0.0).replace("\"mass\": 2.0", "\"mass\": -2.0").replace("\"speed\": 5.0", "\"speed\": -1");
+    let file = File::new("bad.json", bad.as_bytes());
+    for more in [&["--json"][..], &[]] {
+        let lines = refuse(&[&["analyze", file.path()], more].concat(), "");
+        let [mass, speed] = &lines[..] else { panic!("{lines:?}") };
+        assert_eq!(
+            *mass,
+            format!("{}: platform.mass: -2.0 is not allowed; allowed: a finite number greater than 0", file.path())
+        );
+        assert!(speed.contains("motion.speed: -1 is not allowed"), "{speed}");
+    }
+    // The application is not opened with them either.
+    assert_eq!(refuse(&[file.path()], "").len(), 2);
+    let lines = refuse(&["analyze", "-"], "{ \"gravity\": 9.81,\n  oops }");
+    assert!(lines[0].starts_with("standard input: scenario: ") && lines[0].contains("line 2 column 3"), "{lines:?}");
+    assert_eq!(lines.len(), 1);
+    let latin = File::new("latin.json", b"{ \"name\": \"M\xfcller\" }");
+    assert!(refuse(&["analyze", latin.path()], "")[0].contains("not UTF-8"));
+    let lines = refuse(&["analyze", "/no/such/file.json"], "");
+    assert!(lines.len() == 1 && lines[0].starts_with("/no/such/file.json: cannot be read: "), "{lines:?}");
+}
+
+#[test]
+fn bad_arguments_are_refused_on_one_line() {
+    let file = File::new("arguments.json", at(0.0).as_bytes());
+    for speed in ["0", "-1", "nan", "inf", "-inf", "1e999", "fast", ""] {
+        let lines = refuse(&["analyze", file.path(), "--max-speed", speed], "");
+        assert!(lines.len() == 1 && lines[0].contains("greater than 0") && lines[0].contains(speed), "{lines:?}");
+    }
+    for arguments in [
+        &["analyze"][..],
+        &["analyze", file.path(), "--max-speed"],
+        &["analyze", file.path(), "--xml"],
+        &["analyze", file.path(), "second.json"],
+        &["--frob"],
+        &[file.path(), "second.json"],
+        &["example", "paper", "second"],
+        &["analyse"],
+    ] {
+        let lines = refuse(arguments, "");
+        assert!(lines.len() == 1, "{arguments:?}: {lines:?}");
+    }
+}
+
+#[test]
+fn every_example_is_listed_and_can_be_analyzed() {
+    let list = succeed(&["example"], "");
+    for preset in presets::PRESETS {
+        assert!(list.contains(&format!("{}: {}\n", preset.name, preset.title)), "{list}");
+        let example = succeed(&["example", preset.name], "");
+        assert_eq!(Scenario::from_json(&example).unwrap(), preset.scenario());
+        let report = analyze(&example, &[]);
+        assert_eq!(report["feasible"], true, "{}", preset.name);
+    }
+    let lines = refuse(&["example", "papers"], "");
+    assert!(lines.len() == 1 && lines[0].contains("\"papers\"") && lines[0].contains("paper-tangent"), "{lines:?}");
+}
+
+#[test]
+fn help_and_version_are_results() {
+    for arguments in [&["--help"][..], &["help"], &["analyze", "--help"], &["help", "example"], &["--version"]] {
+        assert!(succeed(arguments, "").len() > 10);
+    }
+    let help = succeed(&["--help"], "");
+    for part in ["analyze", "example", "[FILE]", "Exit codes"] {
+        assert!(help.contains(part), "{help}");
+    }
+}
+
+/// `tautline … | head -c 0`: no panic, no complaint.
+#[test]
+fn a_closed_pipe_is_no_fault() {
+    let mut process = Command::new(env!("CARGO_BIN_EXE_tautline"))
+        .args(["analyze", "-", "--json"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(process.stdout.take());
+    process.stdin.take().unwrap().write_all(at(0.0).as_bytes()).unwrap();
+    let output = process.wait_with_output().unwrap();
+    assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap().as_str()), (Some(0), ""));
+}

@@ -1,0 +1,407 @@
+//! The scenario file: what is read, what is refused and how, and that nothing is lost in writing.
+#![cfg(feature = "scenario")]
+
+use std::fs;
+
+use proptest::prelude::*;
+use tautline::robot::{self, Fault, Linearisation, Motion, Strain, TensionLaw};
+use tautline::scenario::v1::{SCHEMA, Schema};
+use tautline::scenario::{Scenario, presets};
+
+/// A scenario with every kind of field, as the format's description has it.
+const SAMPLE: &str = r#"{ "schema": "tautline/scenario/1",
+  "name": "Paper robot",
+  "gravity": 9.81,
+  "cable": { "youngs_modulus": 125e6, "area": 5e-5, "mass_per_length": 0.4, "strain": "green" },
+  "platform": { "mass": 2.0 },
+  "cables": [
+    { "anchor": [-10, 5],  "tension": "equilibrium" },
+    { "anchor": [10, 5],   "tension": "equilibrium" },
+    { "anchor": [-10, -5], "tension": { "horizontal": [50, 5, 0],  "vertical": [45, 0, 0] } },
+    { "anchor": [10, -5],  "tension": { "constant": 67.3 } } ],
+  "elements_per_cable": 10,
+  "damping": { "alpha": 0.5, "beta": 0.005 },
+  "linearisation": "secant",
+  "motion": { "position": [0, 0], "direction": [1, 0], "speed": 5.0 } }"#;
+
+/// [`SAMPLE`] with `old` replaced by `new`.
+fn with(old: &str, new: &str) -> String {
+    assert_eq!(SAMPLE.matches(old).count(), 1, "{old} is not in the sample just once");
+    SAMPLE.replace(old, new)
+}
+
+fn accepted(text: &str) -> Scenario {
+    Scenario::from_json(text).unwrap_or_else(|faults| panic!("{faults}\nin {text}"))
+}
+
+fn faults(text: &str) -> Vec<Fault> {
+    let faults = Scenario::from_json(text).map_or_else(|faults| faults.0, |scenario| panic!("accepted {scenario:?}"));
+    assert!(!faults.is_empty());
+    for fault in &faults {
+        assert_eq!(fault.to_string().lines().count(), 1, "{fault}");
+        for part in [&fault.path, &fault.value, &fault.allowed] {
+            assert!(!part.is_empty() && fault.to_string().contains(part), "{fault}");
+        }
+    }
+    faults
+}
+
+/// Reads `text`, where just one fault must be found: at `path`, with `value`, and `allowed` among what is allowed.
+fn assert_fault(text: &str, path: &str, value: &str, allowed: &str) {
+    match &faults(text)[..] {
+        [fault] => {
+            assert_eq!((fault.path.as_str(), fault.value.as_str()), (path, value), "{fault}");
+            assert!(fault.allowed.contains(allowed), "{fault}");
+        }
+        several => panic!("{several:#?}"),
+    }
+}
+
+#[test]
+fn the_sample_is_read() {
+    let scenario = accepted(SAMPLE);
+    let expected = presets::find("paper").unwrap().scenario();
+    let mut cables = expected.cables.clone();
+    cables[3].tension = TensionLaw::Constant(67.3);
+    assert_eq!(scenario, Scenario { cables, ..expected });
+}
+
+#[test]
+fn missing_optional_fields_have_defaults() {
+    let mut text = SAMPLE.to_owned();
+    for field in [
+        r#""schema": "tautline/scenario/1","#,
+        r#""name": "Paper robot","#,
+        r#""gravity": 9.81,"#,
+        r#", "strain": "green""#,
+        r#""linearisation": "secant","#,
+    ] {
+        text = text.replace(field, "");
+    }
+    let scenario = accepted(&text);
+    assert_eq!(scenario, Scenario { name: None, ..accepted(SAMPLE) });
+    assert!(!scenario.to_json().contains("\"name\""), "{}", scenario.to_json());
+}
+
+#[test]
+fn every_form_is_read() {
+    assert_eq!(accepted(&with("\"green\"", "\"engineering\"")).cable.strain, Strain::Engineering);
+    assert_eq!(accepted(&with("\"secant\"", "\"tangent\"")).linearisation, Linearisation::Tangent);
+    for ten in ["10.0", "1e1", "10"] {
+        let text = with(r#""elements_per_cable": 10"#, &format!(r#""elements_per_cable": {ten}"#));
+        assert_eq!(accepted(&text).elements_per_cable, 10);
+    }
+    assert_eq!(accepted(&format!("\u{feff}{SAMPLE}\n")), accepted(SAMPLE));
+    let direction = accepted(&with("[1, 0]", "[3e200, -4e200]"));
+    assert_eq!(direction.motion.direction, [3e200, -4e200]);
+    assert_eq!(direction.to_robot().unwrap().1.direction(), robot::Vec2::new(0.6, -0.8));
+}
+
+#[test]
+fn structural_faults_name_path_value_and_what_is_allowed() {
+    for (old, new, path, value, allowed) in [
+        ("tautline/scenario/1", "tautline/scenario/2", "schema", r#""tautline/scenario/2""#, SCHEMA),
+        (r#""name": "Paper robot""#, r#""name": 7"#, "name", "7", "a text"),
+        (r#""name": "Paper robot""#, r#""name": null"#, "name", "null", "a text"),
+        ("9.81", r#""9.81""#, "gravity", r#""9.81""#, "a finite number"),
+        ("9.81", "null", "gravity", "null", "a finite number"),
+        ("9.81", "1e999", "gravity", "1e999", "a finite number"),
+        ("9.81", "-1e999", "gravity", "-1e999", "a finite number"),
+        ("9.81", "NaN", "gravity", "\"NaN\"", "a finite number"),
+        ("9.81", "-Infinity", "gravity", "\"-Infinity\"", "a finite number"),
+        ("125e6", "true", "cable.youngs_modulus", "true", "a finite number"),
+        (r#""area": 5e-5, "#, "", "cable.area", "missing", "a finite number"),
+        ("\"green\"", "\"Green\"", "cable.strain", "\"Green\"", r#""green" or "engineering""#),
+        ("\"green\"", "1", "cable.strain", "1", r#""green" or "engineering""#),
+        ("\"secant\"", "\"linear\"", "linearisation", "\"linear\"", r#""secant" or "tangent""#),
+        (r#"{ "mass": 2.0 }"#, "2.0", "platform", "2.0", "an object with the fields mass"),
+        (r#"{ "mass": 2.0 }"#, "{}", "platform.mass", "missing", "a finite number"),
+        (r#""mass": 2.0"#, r#""mass": 2.0, "colour": "red""#, "platform.colour", r#"an unknown field ("red")"#, "mass"),
+        (r#""mass": 2.0"#, r#""mass": 2.0, "a b\n": []"#, r#"platform["a b\n"]"#, "an unknown field ([])", "mass"),
+        (r#""mass": 2.0"#, r#""mass": 2.0, "mass": 3"#, "platform.mass", "a second field of the same name (3)", "once"),
+        (r#""platform": { "mass": 2.0 },"#, "", "platform", "missing", "mass"),
+        ("[-10, 5]", "[-10]", "cables[0].anchor", "[-10]", "a list of 2 numbers"),
+        ("[-10, 5]", "[-10, 5, 0]", "cables[0].anchor", "[-10, 5, 0]", "a list of 2 numbers"),
+        ("[-10, 5]", "[-10,\n \"5\"]", "cables[0].anchor[1]", "\"5\"", "a finite number"),
+        ("[-10, 5]", "{\"x\": 1}", "cables[0].anchor", "{\"x\": 1}", "a list of 2 numbers"),
+        ("[50, 5, 0]", "[50, 5]", "cables[2].tension.horizontal", "[50, 5]", "a list of 3 numbers"),
+        (r#", "vertical": [45, 0, 0]"#, "", "cables[2].tension.vertical", "missing", "a list of 3 numbers"),
+        (r#""horizontal": [50, 5, 0],"#, "", "cables[2].tension.horizontal", "missing", "a list of 3 numbers"),
+        ("67.3 }", "67.3, \"unit\": 1 }", "cables[3].tension.unit", "an unknown field (1)", "constant"),
+        ("67.3", "[67.3]", "cables[3].tension.constant", "[67.3]", "a finite number"),
+        (r#"{ "constant": 67.3 }"#, "{}", "cables[3].tension", "{}", r#""equilibrium", {"constant": T} or"#),
+        (r#"{ "constant": 67.3 }"#, "67.3", "cables[3].tension", "67.3", r#""equilibrium", {"constant": T} or"#),
+        (r#"{ "constant": 67.3 }"#, "\"taut\"", "cables[3].tension", "\"taut\"", r#""equilibrium", {"constant": T} or"#),
+        (
+            r#""constant": 67.3"#,
+            r#""constant": 67.3, "vertical": [1, 2, 3]"#,
+            "cables[3].tension",
+            r#"{ "constant": 67.3, "vertical": [1, 2, 3] }"#,
+            "\"equilibrium\"",
+        ),
+        (r#", "tension": { "constant": 67.3 }"#, "", "cables[3].tension", "missing", "\"equilibrium\""),
+        (r#""beta": 0.005"#, r#""beta": {}"#, "damping.beta", "{}", "a finite number"),
+        (r#", "speed": 5.0"#, "", "motion.speed", "missing", "a finite number"),
+        (r#""direction": [1, 0]"#, r#""direction": "+x""#, "motion.direction", "\"+x\"", "a list of 2 numbers"),
+    ] {
+        let text = with(old, new);
+        assert_fault(&text, path, value, allowed);
+    }
+    for elements in ["10.5", "-3", "\"10\"", "1e300", "[10]"] {
+        let text = with(r#""elements_per_cable": 10"#, &format!(r#""elements_per_cable": {elements}"#));
+        assert_fault(&text, "elements_per_cable", elements, "a whole number from 2 to 200");
+    }
+    let cables = SAMPLE.find("[\n").unwrap()..SAMPLE.find("],\n  \"elements").unwrap() + 1;
+    let without_cables = |new: &str| format!("{}{new}{}", &SAMPLE[..cables.start], &SAMPLE[cables.end..]);
+    assert_fault(&without_cables("4"), "cables", "4", "a list of 3 to 8 cables");
+    assert_eq!(faults(&without_cables("[1, 2]")).len(), 2);
+}
+
+#[test]
+fn physical_faults_name_path_value_and_what_is_allowed() {
+    let law = r#"{ "horizontal": [50, 5, 0],  "vertical": [45, 0, 0] }"#;
+    for (old, new, path, value, allowed) in [
+        ("9.81", "-9.810", "gravity", "-9.810", "a finite number, 0 or more"),
+        ("125e6", "0", "cable.youngs_modulus", "0", "a finite number greater than 0"),
+        ("5e-5", "-1e-5", "cable.area", "-1e-5", "a finite number greater than 0"),
+        ("5e-5", "1e-999", "cable.area", "1e-999", "a finite number greater than 0"),
+        ("5e-5", "1e305", "cable.youngs_modulus", "125e6", "within the range"),
+        ("9.81", "1e309e", "scenario", "text that is not JSON (expected `,` or `}` at line 3 column 19)", "one JSON object"),
+        ("0.4", "0.0", "cable.mass_per_length", "0.0", "a finite number greater than 0"),
+        ("2.0", "-2", "platform.mass", "-2", "a finite number greater than 0"),
+        ("0.5", "-0.5", "damping.alpha", "-0.5", "a finite number, 0 or more"),
+        ("0.005", "-5E-3", "damping.beta", "-5E-3", "a finite number, 0 or more"),
+        ("5.0", "-5", "motion.speed", "-5", "a finite number, 0 or more"),
+        ("[1, 0]", "[0, 0.0]", "motion.direction", "[0, 0.0]", "not zero"),
+        ("67.3", "-67.3", "cables[3].tension.constant", "-67.3", "a finite number greater than 0"),
+        ("[10, 5]", "[ -10, 5.0 ]", "cables[1].anchor", "[ -10, 5.0 ]", "differs from cables[0].anchor"),
+        (law, "\"equilibrium\"", "cables", "3 cables with tension \"equilibrium\"", "exactly two"),
+        (r#""elements_per_cable": 10"#, r#""elements_per_cable": 1"#, "elements_per_cable", "1", "from 2 to 200"),
+        (r#""elements_per_cable": 10"#, r#""elements_per_cable": 201"#, "elements_per_cable", "201", "from 2 to 200"),
+    ] {
+        assert_fault(&with(old, new), path, value, allowed);
+    }
+    let first_two = SAMPLE.find("[\n").unwrap() + 1..SAMPLE.find("{ \"anchor\": [-10, -5]").unwrap();
+    let two = format!("{}{}", &SAMPLE[..first_two.start], &SAMPLE[first_two.end..]);
+    let found = faults(&two);
+    assert_eq!((found[0].path.as_str(), found[0].value.as_str()), ("cables", "a list of 2"));
+    let many = with("[\n", &format!("[\n{}", r#"{ "anchor": [1, 2], "tension": { "constant": 5 } },"#.repeat(20_000)));
+    assert!(faults(&many).iter().any(|fault| fault.value == "a list of 20004" && fault.allowed == "3 to 8 cables"));
+}
+
+#[test]
+fn all_structural_faults_are_told_then_all_physical_ones() {
+    let structural = with("9.81", "-1").replace("0.4", "\"0.4\"").replace("\"secant\"", "3").replace("[1, 0]", "[0]");
+    let paths: Vec<String> = faults(&structural).into_iter().map(|fault| fault.path).collect();
+    assert_eq!(paths, ["cable.mass_per_length", "linearisation", "motion.direction"]);
+    let physical = with("9.81", "-1").replace("0.4", "-0.4").replace("5.0", "-5").replace("67.3", "0");
+    let paths: Vec<String> = faults(&physical).into_iter().map(|fault| fault.path).collect();
+    assert_eq!(paths, ["gravity", "cable.mass_per_length", "cables[3].tension.constant", "motion.speed"]);
+}
+
+#[test]
+fn texts_that_are_not_scenarios_are_refused() {
+    assert_fault("[]", "scenario", "[]", "an object with the fields schema, name");
+    assert_fault("", "scenario", "text that is not JSON (EOF while parsing a value at line 1 column 0)", "object");
+    assert_fault("{} {}", "scenario", "text that is not JSON (trailing characters at line 1 column 4)", "object");
+    let comma = with("\"mass\": 2.0 },", "\"mass\": 2.0 }");
+    assert_fault(&comma, "scenario", "text that is not JSON (expected `,` or `}` at line 6 column 3)", "object");
+    // Words for numbers that are not finite are no JSON, even where any text may stand.
+    let nan = with("\"Paper robot\"", "NaN");
+    assert_fault(&nan, "scenario", "text that is not JSON (expected value at line 2 column 11)", "object");
+    assert_eq!(accepted(&with("Paper robot", r"NaN \\\" Infinity")).name.unwrap(), r#"NaN \" Infinity"#);
+    // Seven fields are required.
+    let missing: Vec<String> = faults("{}").into_iter().map(|fault| fault.path).collect();
+    assert_eq!(missing.len(), 6, "{missing:?}");
+    assert!(!faults(&"[".repeat(100_000)).is_empty());
+    assert!(!faults(&format!("{}{}", "[".repeat(100_000), "]".repeat(100_000))).is_empty());
+    let long = with("9.81", &format!("\"{}\"", "é".repeat(1000)));
+    assert!(faults(&long)[0].value.chars().count() < 100);
+}
+
+#[test]
+fn the_file_is_laid_out_for_people() {
+    let expected = r#"{
+  "schema": "tautline/scenario/1",
+  "name": "Paper robot",
+  "gravity": 9.81,
+  "cable": { "youngs_modulus": 125000000.0, "area": 0.00005, "mass_per_length": 0.4, "strain": "green" },
+  "platform": { "mass": 2.0 },
+  "cables": [
+    { "anchor": [-10.0, 5.0], "tension": "equilibrium" },
+    { "anchor": [10.0, 5.0], "tension": "equilibrium" },
+    { "anchor": [-10.0, -5.0], "tension": { "horizontal": [50.0, 5.0, 0.0], "vertical": [45.0, 0.0, 0.0] } },
+    { "anchor": [10.0, -5.0], "tension": { "constant": 67.3 } }
+  ],
+  "elements_per_cable": 10,
+  "damping": { "alpha": 0.5, "beta": 0.005 },
+  "linearisation": "secant",
+  "motion": { "position": [0.0, 0.0], "direction": [1.0, 0.0], "speed": 5.0 }
+}"#;
+    assert_eq!(accepted(SAMPLE).to_json(), expected);
+}
+
+#[test]
+fn a_robot_makes_the_scenario_that_makes_the_robot() {
+    let robot = robot::paper().unwrap();
+    let motion = Motion::new([0.1, -0.3], [1.0, -7.0], 2.5).unwrap();
+    let scenario = Scenario::new(&robot, &motion);
+    assert_eq!((scenario.schema, &scenario.name), (Schema::V1, &None));
+    assert_eq!(scenario.to_robot().unwrap(), (robot, motion));
+}
+
+#[test]
+fn every_preset_is_physical_and_described() {
+    for preset in presets::PRESETS {
+        let scenario = preset.scenario();
+        assert_eq!(accepted(&scenario.to_json()), scenario);
+        assert_eq!(scenario.name.as_deref(), Some(preset.title));
+        assert!(std::ptr::eq(presets::find(preset.name).unwrap(), preset), "{} is there twice", preset.name);
+        assert_eq!(preset.description.matches(['.', '!', '?']).count(), 2, "{}", preset.description);
+    }
+    assert_eq!(presets::PRESETS[0].scenario().to_robot().unwrap().0, robot::paper().unwrap());
+    assert!(presets::find("paper robot").is_none());
+}
+
+/// Scenarios, feasible and not, from an independent code.
+#[test]
+fn the_reference_scenarios_are_read_unchanged() {
+    let mut read = 0;
+    for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/reference")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|extension| extension != "json") {
+            continue;
+        }
+        let case: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+        let Some(given) = case.get("scenario") else { continue };
+        let scenario = accepted(&given.to_string());
+        assert_eq!(accepted(&scenario.to_json()), scenario);
+        let written: serde_json::Value = serde_json::from_str(&scenario.to_json()).unwrap();
+        assert_contains(&written, given);
+        read += 1;
+    }
+    assert!(read >= 24, "{read} scenarios");
+}
+
+/// All that `given` says is in `written`, numbers by value.
+fn assert_contains(written: &serde_json::Value, given: &serde_json::Value) {
+    use serde_json::Value::{Array, Number, Object};
+    match (written, given) {
+        (Object(written), Object(given)) => given.iter().for_each(|(key, value)| assert_contains(&written[key], value)),
+        (Array(written), Array(given)) => {
+            assert_eq!(written.len(), given.len());
+            written.iter().zip(given).for_each(|(written, given)| assert_contains(written, given));
+        }
+        (Number(written), Number(given)) => assert_eq!(written.as_f64(), given.as_f64()),
+        _ => assert_eq!(written, given),
+    }
+}
+
+fn any_finite() -> impl Strategy<Value = f64> {
+    use proptest::num::f64::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
+    POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO
+}
+
+/// All kinds of JSON values, also such as scenarios have.
+fn any_json() -> impl Strategy<Value = String> {
+    let leaf = prop_oneof![
+        any_finite().prop_map(|number| format!("{number:?}")),
+        (-3_i64..300).prop_map(|number| number.to_string()),
+        Just("1e999".to_owned()),
+        Just("NaN".to_owned()),
+        Just("null".to_owned()),
+        Just("true".to_owned()),
+        Just("\"equilibrium\"".to_owned()),
+        Just("\"\\ud800\"".to_owned()),
+        ".{0,8}".prop_map(|text| format!("{text:?}")),
+        ".{0,8}",
+    ];
+    leaf.prop_recursive(2, 12, 4, |inner| {
+        let field = ("constant|horizontal|anchor|tension|mass|[a-z ]{0,3}", inner.clone());
+        prop_oneof![
+            prop::collection::vec(inner, 0..4).prop_map(|items| format!("[{}]", items.join(", "))),
+            prop::collection::vec(field.prop_map(|(name, value)| format!("{name:?}: {value}")), 0..4)
+                .prop_map(|fields| format!("{{ {} }}", fields.join(", "))),
+        ]
+    })
+}
+
+/// The sample's values: where each begins and ends.
+fn values() -> Vec<std::ops::Range<usize>> {
+    let mut values = Vec::new();
+    for (start, _) in SAMPLE.char_indices() {
+        let mut stream = serde_json::Deserializer::from_str(&SAMPLE[start..]).into_iter::<serde_json::Value>();
+        if stream.next().is_some_and(|value| value.is_ok()) {
+            values.push(start..start + stream.byte_offset());
+        }
+    }
+    values
+}
+
+fn assert_survives(text: &str) -> Result<(), TestCaseError> {
+    match Scenario::from_json(text) {
+        Ok(scenario) => {
+            prop_assert!(scenario.to_robot().is_ok());
+            let again = Scenario::from_json(&scenario.to_json());
+            prop_assert_eq!(again.as_ref(), Ok(&scenario));
+            // Zeros of both signs are equal, their texts are not.
+            prop_assert_eq!(again.unwrap().to_json(), scenario.to_json());
+        }
+        Err(faults) => {
+            prop_assert!(!faults.0.is_empty());
+            for fault in &faults.0 {
+                prop_assert_eq!(fault.to_string().lines().count(), 1, "{}", fault);
+            }
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn replaced_values_are_told_or_survive(which in any::<prop::sample::Index>(), new in any_json()) {
+        let values = values();
+        let range = which.get(&values).clone();
+        assert_survives(&format!("{}{new}{}", &SAMPLE[..range.start], &SAMPLE[range.end..]))?;
+    }
+
+    #[test]
+    fn damaged_texts_are_told_or_survive(at in 0..SAMPLE.len(), length in 0_usize..20, new in ".{0,3}") {
+        let end = (at + length).min(SAMPLE.len());
+        assert_survives(&format!("{}{new}{}", &SAMPLE[..at], &SAMPLE[end..]))?;
+    }
+
+    #[test]
+    fn any_text_is_told(text in ".*") {
+        prop_assert!(Scenario::from_json(&text).is_err());
+    }
+
+    #[test]
+    fn every_number_is_written_and_read_to_the_last_bit(numbers in prop::collection::vec(any_finite(), 18)) {
+        let mut scenario = accepted(SAMPLE);
+        let mut next = numbers.into_iter();
+        let mut any = || next.next().unwrap();
+        scenario.gravity = any().abs();
+        scenario.cable.youngs_modulus = any().abs();
+        scenario.cable.mass_per_length = any().abs();
+        scenario.platform.mass = any().abs();
+        scenario.damping.alpha = any().abs();
+        scenario.damping.beta = any().abs();
+        scenario.motion.speed = any().abs();
+        scenario.motion.position = [any(), any()];
+        scenario.motion.direction = [any(), any()];
+        scenario.cables[2].anchor = [any(), any()];
+        scenario.cables[2].tension = TensionLaw::Hypot { horizontal: [any(), any(), any()], vertical: [any(), 1.0, 2.0] };
+        scenario.cables[3].tension = TensionLaw::Constant(any().abs());
+        prop_assume!(scenario.to_robot().is_ok());
+        assert_survives(&scenario.to_json())?;
+        // The robot's own form keeps them as well; a direction once normalised stays as it is.
+        let (robot, motion) = scenario.to_robot().unwrap();
+        let direction = motion.direction();
+        prop_assert!((direction.norm() - 1.0).abs() < 1e-15, "{direction}");
+        let again = Scenario::new(&robot, &motion);
+        prop_assert_eq!(again.to_robot().unwrap(), (robot, motion));
+    }
+}
