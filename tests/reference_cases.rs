@@ -84,7 +84,7 @@ fn check_case(file: &Path) {
     close(spectrum.growth_rate(), growth, allowed, format_args!("{name}: largest growth rate"));
 
     let limit = number(&expected["searched_up_to"]);
-    let outcome = local.critical_search(limit).run().expect(name);
+    let outcome = local.critical_speed(limit).expect(name);
     match (outcome, &expected["critical"]) {
         (Outcome::NoneUpTo(searched), Value::Null) => close(searched, limit, 0.0, "the end of the search"),
         (Outcome::Found(critical), expected) if expected.is_object() => check_critical(name, &critical, expected),
