@@ -19,7 +19,8 @@ fn main() {
         let create: eframe::AppCreator<'static> =
             Box::new(|context| Ok(Box::new(Tautline::new(&context.egui_ctx, presets::PRESETS[0].scenario()))));
         if let Err(error) = eframe::WebRunner::new().start(canvas, eframe::WebOptions::default(), create).await {
-            web_sys::console::error_1(&error);
+            // The page hears of it and tells it.
+            wasm_bindgen::throw_val(error);
         }
     });
 }

@@ -51,6 +51,8 @@ pub enum Number {
     PositionX,
     /// y.
     PositionY,
+    /// The angle of the motion from the x axis, in radians.
+    Direction,
     /// The constant tension of a cable (0-based).
     Tension(usize),
     /// Coefficient 0, 1 or 2 of the horizontal part of a cable's tension law.
@@ -64,8 +66,13 @@ impl Number {
     pub fn get(self, scenario: &Scenario) -> f64 {
         // One way to reach each number, for reading and writing alike.
         let mut copy = scenario.clone();
-        if self == Self::Elements {
-            return scenario.elements_per_cable as f64;
+        match self {
+            Self::Elements => return scenario.elements_per_cable as f64,
+            Self::Direction => {
+                let [x, y] = scenario.motion.direction;
+                return y.atan2(x);
+            }
+            _ => {}
         }
         self.place(&mut copy).map_or(0.0, |place| *place)
     }
@@ -77,6 +84,10 @@ impl Number {
             #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
             let elements = value.round() as usize;
             scenario.elements_per_cable = elements;
+        } else if self == Self::Direction {
+            // A right angle is meant exactly.
+            let exact = |part: f64| if part.abs() < 1e-15 { 0.0 } else { part };
+            scenario.motion.direction = [exact(value.cos()), exact(value.sin())];
         } else if let Some(place) = self.place(scenario) {
             *place = value;
         }
@@ -94,7 +105,7 @@ impl Number {
             Self::Speed => Some(&mut scenario.motion.speed),
             Self::PositionX => Some(&mut scenario.motion.position[0]),
             Self::PositionY => Some(&mut scenario.motion.position[1]),
-            Self::Elements => None,
+            Self::Elements | Self::Direction => None,
             Self::Tension(cable) | Self::Horizontal(cable, _) | Self::Vertical(cable, _) => {
                 match (self, &mut scenario.cables.get_mut(cable)?.tension) {
                     (Self::Tension(_), TensionLaw::Constant(tension)) => Some(tension),
@@ -120,19 +131,20 @@ pub const SPEED: Field = Field {
     ..field("Speed", "v", "m/s", Number::Speed)
 };
 
-/// Where the platform is.
-pub const POSITION: [Field; 2] = [
-    Field {
-        range: [-10.0, 10.0],
-        meaning: "The platform's position along x, to the right. Drag the platform on the canvas for the same.",
-        ..field("Position x", "x", "m", Number::PositionX)
-    },
-    Field {
-        range: [-5.0, 5.0],
-        meaning: "The platform's position along y, upward.",
-        ..field("Position y", "y", "m", Number::PositionY)
-    },
-];
+/// The angle of the motion.
+pub const DIRECTION: Field = Field {
+    factor: std::f64::consts::PI / 180.0,
+    range: [-180.0, 180.0],
+    meaning: "The direction of the motion: 0° to the right, 90° upward. Drag the arrow's tip on the canvas for the same.",
+    ..field("Direction", "θ", "°", Number::Direction)
+};
+
+/// Where the platform is, within `frame`: [left, bottom, right, top] in m.
+pub fn position([left, bottom, right, top]: [f64; 4]) -> [Field; 2] {
+    let meaning = "The platform's position: x to the right, y up. Drag the platform on the canvas for the same.";
+    let field = |name, symbol, number, range| Field { range, meaning, ..field(name, symbol, "m", number) };
+    [field("Position", "x", Number::PositionX, [left, right]), field("Position", "y", Number::PositionY, [bottom, top])]
+}
 
 /// Cables and platform.
 pub const BODY: [Field; 5] = [

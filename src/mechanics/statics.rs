@@ -8,7 +8,7 @@
 //! Several shapes may satisfy the equations. The one wanted is the *taut* one: it grows out of the straight,
 //! weightless cables as the cables' weight is turned on. Newton's method tries full weight at once; the sign of
 //! the Jacobian's determinant, which changes only where the taut shape meets a slack one, tells whether it found
-//! the right one. If not, the weight is turned on in steps. docs/theory.md section 4 has the argument.
+//! the right one. If not, the weight is turned on in steps. docs/theory.md section 5 has the argument.
 
 use nalgebra::{Const, OMatrix, SVector, ToTypenum};
 use num_dual::{DualNum, DualSVec64, jacobian};

@@ -2,7 +2,7 @@
 //!
 //! The growth rate against speed is not monotone, so the *first* crossing is wanted: the speed is raised in steps to
 //! the first unstable one, as in the paper, and the crossing before it is then refined. A crossing and its return
-//! within one step are not seen; docs/theory.md section 6 says so.
+//! within one step are not seen; docs/theory.md section 8 says so.
 
 use std::f64::consts::TAU;
 

@@ -2,7 +2,7 @@
 //!
 //! Q(λ) = λ² M + λ (v C + αM + βK) + K + v² D is block tridiagonal along each cable, and the cables meet only in the
 //! platform's block. Eliminating from the winches to the platform and substituting back costs O(n) per solve.
-//! docs/theory.md section 7.
+//! docs/theory.md section 11.
 
 use nalgebra::{Complex, Matrix2, Vector2};
 

@@ -1,5 +1,6 @@
 //! What can be grabbed on the canvas: the platform, the arrow's tip, the background. All of it by keyboard, too.
 
+use eframe::egui::emath::smart_aim::best_in_range_f64;
 use eframe::egui::{
     CursorIcon, EventFilter, Key, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
 };
@@ -31,21 +32,23 @@ pub fn ui(
     let mut scenario = document.scenario.clone();
     let motion = &mut scenario.motion;
     if let Some(grabbed) = drag(ui, &platform, view.pos_in_ui(scene.platform)) {
-        motion.position = view.pos_in_world(grabbed);
+        motion.position = view.pos_in_world(grabbed).map(|coordinate| roundest(coordinate, 1.0 / view.scale));
     }
     if let Some(([x, y], fine)) = keys(ui, &platform) {
         let step = KEY_STEP * (scene.frame[2] - scene.frame[0]) * fine;
         motion.position = [motion.position[0] + x * step, motion.position[1] + y * step];
     }
     let [x, y] = motion.position;
-    platform.on_hover_text(format!("Platform at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it, with Shift finely."));
+    if !platform.dragged() {
+        let text = format!("Platform at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it, with Shift finely.");
+        platform.on_hover_text(text);
+    }
 
     let tip = handle(ui, painter, "Velocity", arrow_tip(view, scene), CursorIcon::Grab);
     if let Some(grabbed) = drag(ui, &tip, arrow_tip(view, scene)) {
         let from_platform = grabbed - view.pos_in_ui(scene.platform);
         let beyond = view.vec_in_world(Vec2::new((from_platform.length() - ARROW_GAP).max(0.0), 0.0))[0];
-        // A millimetre per second is as fine as a hand can set it.
-        motion.speed = (beyond / scene.arrow_scale * 1e3).round() / 1e3;
+        motion.speed = roundest(beyond / scene.arrow_scale, 1.0 / (view.scale * scene.arrow_scale)).max(0.0);
         if from_platform.length() > 1.0 {
             let [x, y] = view.vec_in_world(from_platform);
             motion.direction = [x / x.hypot(y), y / x.hypot(y)];
@@ -57,10 +60,12 @@ pub fn ui(
         let [x, y] = motion.direction;
         motion.direction = [cosine * x - sine * y, sine * x + cosine * y];
     }
-    tip.on_hover_text(format!(
-        "Velocity {:.2} m/s. Drag it for direction and speed; keys: ← → turn, ↑ ↓ speed, with Shift finely.",
-        motion.speed
-    ));
+    if !tip.dragged() {
+        let speed = motion.speed;
+        tip.on_hover_text(format!(
+            "Velocity {speed:.2} m/s. Drag it for direction and speed; keys: ← → turn, ↑ ↓ speed, with Shift finely."
+        ));
+    }
     if scenario.motion != document.scenario.motion {
         commands.push(Command::Edit(Box::new(scenario)));
     }
@@ -93,6 +98,11 @@ fn drag(ui: &Ui, response: &Response, centre: Pos2) -> Option<Pos2> {
     }
     let kept: Vec2 = ui.data(|data| data.get_temp(offset)).unwrap_or_default();
     Some(pointer + kept)
+}
+
+/// The roundest number within half a point of the screen: a hand cannot mean it more exactly.
+fn roundest(value: f64, point: f64) -> f64 {
+    best_in_range_f64(value - 0.5 * point, value + 0.5 * point)
 }
 
 /// Arrow keys pressed while `response` has the focus: right minus left, up minus down, and 0.1 with Shift.

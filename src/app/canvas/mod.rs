@@ -7,7 +7,7 @@ mod view;
 
 use eframe::egui::{self, Sense, Ui};
 
-pub use model::{Scene, phase_advance};
+pub use model::{Scene, frame, phase_advance};
 pub use view::View;
 
 use crate::app::answers::Answers;

@@ -85,8 +85,8 @@ impl Scene {
     }
 }
 
-/// The box around all anchors, with some height and width even where they are in a line.
-fn frame(scenario: &Scenario) -> [f64; 4] {
+/// The workspace: [left, bottom, right, top] of all anchors in m, with some height and width even where they are in a line.
+pub fn frame(scenario: &Scenario) -> [f64; 4] {
     let coordinates = |i: usize| range(scenario.cables.iter().map(move |cable| cable.anchor[i]));
     let [left, right] = coordinates(0).unwrap_or([-1.0, 1.0]);
     let [bottom, top] = coordinates(1).unwrap_or([-1.0, 1.0]);

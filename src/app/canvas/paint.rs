@@ -13,22 +13,24 @@ pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
     painter.rect_filled(view.rect, 0.0, visuals.extreme_bg_color);
     grid(painter, visuals, view, scene);
     for cable in &scene.cables {
-        let anchor = view.pos_in_ui(cable.anchor);
         if cable.nodes.is_empty() {
             // No shape: the straight line, dashed, so that it reads as missing.
-            let line = [view.pos_in_ui(scene.platform), anchor];
+            let line = [view.pos_in_ui(scene.platform), view.pos_in_ui(cable.anchor)];
             painter.extend(Shape::dashed_line(&line, Stroke::new(1.5, visuals.weak_text_color()), 6.0, 6.0));
         }
         if cable.marked {
             let colour = theme::warning(visuals).gamma_multiply(0.30);
             polyline(painter, view, &cable.nodes, Stroke::new(11.0, colour));
         }
+        polyline(painter, view, &cable.vibrating, Stroke::new(1.6, theme::accent(visuals)));
+    }
+    // Over the vibration, so that the tension stays to be seen where a mode moves little.
+    for cable in &scene.cables {
         for (ends, &force) in cable.nodes.windows(2).zip(&cable.forces) {
             let colour = theme::sequential(part(force, scene.tensions), visuals);
             let ends = [view.pos_in_ui(ends[0]), view.pos_in_ui(ends[1])];
             painter.line_segment(ends, Stroke::new(3.0, colour));
         }
-        polyline(painter, view, &cable.vibrating, Stroke::new(1.6, theme::accent(visuals)));
     }
     for (i, cable) in scene.cables.iter().enumerate() {
         winch(painter, visuals, view, scene, i, cable.prescribed);

@@ -1,24 +1,29 @@
 //! Sliders with typed values for everything that can be turned.
 
 use eframe::egui::{
-    Button, CollapsingHeader, ComboBox, DragValue, Grid, Label, RichText, Sense, Slider, SliderClamping, Ui,
+    Align, Button, CollapsingHeader, ComboBox, DragValue, Grid, Label, Layout, RichText, Sense, Slider, SliderClamping,
+    Ui, Vec2,
 };
 
+use crate::app::canvas;
 use crate::app::fields::{self, Field};
 use crate::app::state::{Command, Document};
 use crate::robot::{Linearisation, Strain, TensionLaw};
 use crate::scenario::{Scenario, presets};
 
+/// Room for a control's name, in points.
+const LABEL: Vec2 = Vec2::new(130.0, 18.0);
+
 /// Draws the controls; a change becomes one command.
 pub fn ui(ui: &mut Ui, document: &Document, original: &Scenario, commands: &mut Vec<Command>) {
     let mut edited = document.scenario.clone();
     examples(ui, document, commands);
-    group(ui, "Motion", &mut edited, original, &[fields::SPEED]);
+    let [x, y] = fields::position(canvas::frame(&document.scenario));
+    group(ui, "Motion", &mut edited, original, &[fields::SPEED, fields::DIRECTION, x, y]);
     group(ui, "Cables and platform", &mut edited, original, &fields::BODY);
     group(ui, "Damping and mesh", &mut edited, original, &fields::MODEL);
     choices(ui, &mut edited);
     tensions(ui, &mut edited, original);
-    CollapsingHeader::new("Position").show(ui, |ui| rows(ui, &mut edited, original, &fields::POSITION));
     if edited != document.scenario {
         commands.push(Command::Edit(Box::new(edited)));
     }
@@ -66,7 +71,11 @@ fn row(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, field: &Field) {
     ui.horizontal(|ui| {
         let title = format!("{} {}", field.name, if field.symbol == field.name { "" } else { field.symbol });
         let name = Label::new(title.trim_end()).truncate().sense(Sense::hover());
-        let name = ui.add_sized([124.0, 18.0], name).on_hover_text(field.meaning);
+        let column = ui.allocate_ui_with_layout(LABEL, Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_size(LABEL);
+            ui.add(name).on_hover_text(field.meaning)
+        });
+        let name = column.inner;
         let [low, high] = field.range;
         ui.spacing_mut().slider_width = (ui.available_width() - 122.0).clamp(60.0, 260.0);
         let mut slider = Slider::new(&mut shown, low..=high)

@@ -1,7 +1,7 @@
 //! The largest growth rate against speed, with the critical speed and today's.
 
 use eframe::egui::Ui;
-use egui_plot::{HLine, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
+use egui_plot::{Corner, HLine, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
 
 use crate::app::answers::{Answers, CriticalState};
 use crate::app::state::Document;
@@ -27,7 +27,7 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
         .height(ui.available_height().max(220.0))
         .include_y(0.0)
         .allow_scroll(false)
-        .legend(Legend::default())
+        .legend(Legend::default().position(Corner::LeftTop))
         .label_formatter(|hover| {
             let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
                 hover;
@@ -35,7 +35,7 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
         })
         .show(ui, |plot| {
             plot.hline(HLine::new("", 0.0).color(visuals.weak_text_color()).allow_hover(false));
-            let curve = PlotPoints::from(answer.curve.clone());
+            let curve = PlotPoints::from(near_zero(&answer.curve));
             plot.line(Line::new("Growth rate", curve).color(colour).width(2.0));
             if let Some(critical) = &answer.critical {
                 let line = VLine::new(format!("Critical {:.3} m/s", critical.speed), critical.speed);
@@ -45,4 +45,11 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
             let today = VLine::new(format!("Today {speed:.2} m/s"), speed).style(LineStyle::dashed_loose());
             plot.vline(today.color(theme::accent(&visuals)).width(2.0));
         });
+}
+
+/// The curve without its steep end: where growth far exceeds the decay at low speeds it would flatten the crossing.
+fn near_zero(curve: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let lowest = curve.iter().map(|point| point[1]).fold(0.0, f64::min);
+    let end = curve.iter().rposition(|point| point[1] <= -2.0 * lowest);
+    curve.iter().take(end.map_or(curve.len(), |end| end + 2)).copied().collect()
 }
