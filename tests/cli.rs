@@ -263,3 +263,14 @@ fn a_closed_pipe_is_no_fault() {
     let output = process.wait_with_output().unwrap();
     assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap().as_str()), (Some(0), ""));
 }
+
+#[test]
+fn both_methods_find_the_same_critical_speed() {
+    let scenario = find("paper").unwrap().scenario().to_json();
+    let by = |method: &str| {
+        let output = tautline(&["analyze", "-", "--json", "--method", method], &scenario);
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        report["critical"]["speed"].as_f64().unwrap()
+    };
+    assert!((by("structured") - by("dense")).abs() < 1e-6);
+}

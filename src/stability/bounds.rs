@@ -50,7 +50,7 @@ struct Flow {
     /// μ l in kg.
     mass: f64,
     /// μ w and μ ẇ at both ends.
-    flow: [f64; 2],
+    through: [f64; 2],
     rate: [f64; 2],
     /// The eigenvalues of A/l, the smaller one first.
     elastic: [f64; 2],
@@ -67,7 +67,7 @@ impl Flow {
         let k = &element.elastic;
         let (mean, radius) =
             (0.5 * (k[(0, 0)] + k[(1, 1)]), (0.5 * (k[(0, 0)] - k[(1, 1)])).hypot(0.5 * (k[(0, 1)] + k[(1, 0)])));
-        Self { mass, flow, rate, elastic: [mean - radius, mean + radius] }
+        Self { mass, through: flow, rate, elastic: [mean - radius, mean + radius] }
     }
 }
 
@@ -97,17 +97,17 @@ impl Bounds {
                 let one = Flow::of(element);
                 let largest = |pair: [f64; 2]| pair[0].abs().max(pair[1].abs());
                 if let Some([flow, rate]) = before {
-                    let jump = (one.flow[0] - flow).abs() > ROUNDING * largest(one.flow)
+                    let jump = (one.through[0] - flow).abs() > ROUNDING * largest(one.through)
                         || (one.rate[0] - rate).abs()
-                            > ROUNDING * (largest(one.rate) + largest(one.flow).powi(2) / one.mass);
+                            > ROUNDING * (largest(one.rate) + largest(one.through).powi(2) / one.mass);
                     if jump {
                         return None;
                     }
                 }
-                before = Some([one.flow[1], one.rate[1]]);
+                before = Some([one.through[1], one.rate[1]]);
                 let impedance = (one.mass * one.elastic[0]).sqrt();
-                bounds.reeling = bounds.reeling.max((one.flow[1] - one.flow[0]) / one.mass);
-                bounds.slowness = bounds.slowness.max(largest(one.flow) / impedance);
+                bounds.reeling = bounds.reeling.max((one.through[1] - one.through[0]) / one.mass);
+                bounds.slowness = bounds.slowness.max(largest(one.through) / impedance);
                 bounds.acceleration = bounds.acceleration.max(largest(one.rate) / impedance);
                 bounds.curvature = bounds.curvature.max(0.5 * (one.rate[1] - one.rate[0]).abs() / one.mass);
                 bounds.highest = bounds.highest.max(12.0 * one.elastic[1] / one.mass);

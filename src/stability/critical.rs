@@ -1,6 +1,7 @@
 //! The critical speed: the smallest speed at which an eigenvalue's real part becomes positive.
 //!
-//! The growth rate against speed is not monotone, so the *first* crossing is wanted: the speed is raised in steps to
+//! The growth rate against speed is not monotone, so the *first* crossing is wanted. The structured search finds it
+//! without a scan. Where that leaves doubt, and without damping, the speed is raised in steps to
 //! the first unstable one, as in the paper, and the crossing before it is then refined. A crossing and its return
 //! within one step are not seen; docs/theory.md section 8 says so.
 
@@ -71,10 +72,22 @@ pub enum Outcome {
     NoneUpTo(f64),
 }
 
+/// How the critical speed is searched for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// By structure, at a cost that grows with the number of elements; where that leaves doubt, by the dense scan.
+    #[default]
+    Structured,
+    /// By all eigenvalues at speeds [`SCAN_STEP`] apart, then bisection.
+    Dense,
+}
+
 /// A search for the critical speed of one problem in slices, so that it can be watched and abandoned.
 #[derive(Debug)]
 pub struct CriticalSearch {
     limit: f64,
+    /// What the next slice does.
+    method: Method,
     steps: u64,
     samples: Vec<Sample>,
 }
@@ -82,10 +95,15 @@ pub struct CriticalSearch {
 impl CriticalSearch {
     /// A search from rest to `limit` (m/s).
     pub fn new(limit: f64) -> Self {
-        Self { limit, steps: 0, samples: Vec::new() }
+        Self::by(Method::default(), limit)
     }
 
-    /// The speeds looked at so far, in rising order.
+    /// The same by `method`.
+    pub fn by(method: Method, limit: f64) -> Self {
+        Self { limit, method, steps: 0, samples: Vec::new() }
+    }
+
+    /// The speeds the dense scan has looked at so far, in rising order; none where the structured search has answered.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
     }
@@ -107,12 +125,16 @@ impl CriticalSearch {
         }
     }
 
-    /// Looks at the next speed of the same `vibration`, whose `problem` is given with it; `None` while the search
-    /// goes on.
+    /// Searches by structure, all at once, or looks at the scan's next speed, of the same `vibration`, whose `problem`
+    /// is given with it; `None` while the search goes on.
     ///
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
     pub fn advance(&mut self, vibration: &Vibration, problem: &Eigenproblem) -> Result<Option<Outcome>, NotConverged> {
+        if self.method == Method::Structured {
+            self.method = Method::Dense;
+            return Ok(structured(vibration, self.limit));
+        }
         let speed = (self.steps as f64 * SCAN_STEP).min(self.limit);
         let growth_rate = problem.spectrum(speed)?.growth_rate();
         self.steps += 1;

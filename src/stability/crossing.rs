@@ -25,8 +25,9 @@ const LARGEST_STRIP: f64 = 0.5;
 const LARGEST_CHANGE: f64 = 0.7;
 /// How far the change of ln det Q may be from the trapezoidal rule.
 const LARGEST_ERROR: f64 = 0.2;
-/// Evaluations after which the dense solver is no slower.
-const LARGEST_EFFORT: usize = 150_000;
+/// Evaluations after which the dense solver is hardly slower, for all cells and for the first ones of a strip.
+const LARGEST_EFFORT: usize = 50_000;
+const LARGEST_STRIP_EFFORT: f64 = 4000.0;
 /// Cells smaller than this part of the first ones are in doubt.
 const SMALLEST_CELL: f64 = 1e-7;
 /// Newton steps to a zero.
@@ -56,22 +57,22 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
     while from < limit {
         let to = limit.min(from + LARGEST_STRIP);
         let top = bounds.highest_frequency(to);
-        let columns = (top / (LARGEST_CELL * bounds.frequency_step())).ceil();
+        let columns = (top / (LARGEST_CELL * bounds.frequency_step())).ceil().max(1.0);
+        if columns.is_nan() || columns > LARGEST_STRIP_EFFORT {
+            return Search::Doubt;
+        }
         plane.cell = [top / columns, to - from];
         if plane.search(from, to, columns).is_none() {
             return Search::Doubt;
         }
         if let Some(zero) = plane.first_from(from).filter(|zero| zero.speed <= to) {
-            // What crosses first crosses to the right: d Re λ/dv = Im (D_v/D_ω).
+            // What crosses first crosses to the right: d Re λ/dv = Im b.
             let sound = zero.slope.im > 0.0;
             return if sound { Search::Crossing { omega: zero.omega, speed: zero.speed } } else { Search::Doubt };
         }
         let missed = |zero: &Zero| zero.speed > 0.0 && zero.speed < from;
         if plane.zeros.iter().any(missed) {
             return Search::Doubt;
-        }
-        if std::env::var("DBG").is_ok() {
-            eprintln!("{from:.3}..{to:.3} top {top:.2} columns {columns} evals {} {bounds:?}", plane.evaluations);
         }
         from = to;
     }
@@ -88,12 +89,13 @@ struct Corner {
     by_speed: C64,
 }
 
-/// A zero, near which D is a multiple of (ω − ω₀) + (D_v/D_ω)(v − v₀).
+/// A zero, near which D is a multiple of (ω − ω₀) + b (v − v₀), where b is the ratio of D's
+/// derivatives in v and in ω.
 #[derive(Clone, Copy, Debug)]
 struct Zero {
     omega: f64,
     speed: f64,
-    /// D_v/D_ω.
+    /// b in rad/s per m/s: the eigenvalue moves by −i b per unit of v.
     slope: C64,
 }
 

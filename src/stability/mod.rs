@@ -5,11 +5,12 @@ mod characteristic;
 mod critical;
 mod crossing;
 mod dense;
+mod jet;
 mod modes;
 mod spectrum;
 
 pub use characteristic::{Characteristic, LogDeterminant};
-pub use critical::{Critical, CriticalSearch, Kind, Outcome, SCAN_STEP, Sample, structured};
+pub use critical::{Critical, CriticalSearch, Kind, Method, Outcome, SCAN_STEP, Sample, structured};
 pub use dense::Eigenproblem;
 pub use modes::{Mode, Polarisation, mode};
 pub use spectrum::{ModeValue, Spectrum};
