@@ -1,5 +1,6 @@
 //! Eigenvalues, mode shapes and the critical speed of a [`crate::mechanics::Vibration`].
 
+mod aberth;
 mod bounds;
 mod characteristic;
 mod critical;
@@ -9,6 +10,7 @@ mod jet;
 mod modes;
 mod spectrum;
 
+pub use aberth::Spectra;
 pub use characteristic::{Characteristic, LogDeterminant};
 pub use critical::{Critical, CriticalSearch, Kind, Method, Outcome, SCAN_STEP, Sample, structured};
 pub use dense::Eigenproblem;
