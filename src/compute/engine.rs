@@ -158,7 +158,7 @@ impl Pose {
                 ..failed(failure_sentence(&failure), motion.speed())
             })
         })?;
-        let spectrum = local.problem.spectrum(motion.speed());
+        let spectrum = local.spectrum(motion.speed());
         let spectrum = spectrum.map_err(|error| Box::new(failed(sentence(&error.to_string()), motion.speed())))?;
         Ok(Self {
             revision: job.revision,
@@ -287,7 +287,7 @@ impl Pose {
             }
             Stage::Curve { from, next, to, last, points } => {
                 let speed = *from + (*to - *from) * f64::from(*next) / f64::from(*last);
-                points.push([speed, self.local.problem.spectrum(speed)?.growth_rate()]);
+                points.push([speed, self.local.spectra.spectrum(&self.local.problem, speed)?.growth_rate()]);
                 *next += 1;
                 let complete = next > last;
                 if points.len() < CURVE_PART && !complete {

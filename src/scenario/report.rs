@@ -159,7 +159,11 @@ impl Report {
     ) -> Self {
         let outcome = Local::new(robot, motion).map_err(|failure| failure_sentence(&failure)).and_then(|local| {
             let mut complete = || -> Result<Self, NotConverged> {
-                let mut report = Self::new(&local, &local.problem.spectrum(motion.speed())?);
+                let spectrum = match method {
+                    Method::Structured => local.spectrum(motion.speed())?,
+                    Method::Dense => local.problem.spectrum(motion.speed())?,
+                };
+                let mut report = Self::new(&local, &spectrum);
                 let mut search = CriticalSearch::by(method, limit);
                 let outcome = loop {
                     watch(search.searched_up_to());

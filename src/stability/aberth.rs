@@ -9,7 +9,7 @@ use nalgebra::Complex;
 
 use super::characteristic::Characteristic;
 use crate::mechanics::Vibration;
-use crate::stability::{Eigenproblem, Spectrum};
+use crate::stability::{Eigenproblem, NotConverged, Spectrum};
 
 type C64 = Complex<f64>;
 
@@ -20,8 +20,10 @@ const CONVERGED: f64 = 1e-9;
 const ROUNDING: f64 = 1e-15;
 /// A step is at most this part of the estimate.
 const LARGEST_STEP: f64 = 0.5;
-/// By this part estimates are moved off the real axis and off each other where pairs are not kept together.
-const SPREAD: f64 = 1e-3;
+/// By this part of the distance to the nearest other one estimates are moved off the real axis and off each other where pairs are not kept together.
+const SPREAD: f64 = 0.1;
+/// After so many failures the dense solver is asked at once.
+const PATIENCE: usize = 3;
 /// The sums over the eigenvalues must agree with what they are known to be to this part of their terms' sum.
 const AGREEMENT: f64 = 1e-7;
 
@@ -39,6 +41,8 @@ pub struct Spectra {
     multiplicity: usize,
     /// The last spectrum.
     last: Option<Estimates>,
+    /// How often the dense solver had to help.
+    failures: usize,
 }
 
 /// Estimates of all eigenvalues.
@@ -64,11 +68,27 @@ impl Spectra {
             scale: problem.scale(),
             multiplicity: if vibration.isotropic { 2 } else { 1 },
             last: None,
+            failures: 0,
         }
     }
 
-    /// All eigenvalues at `speed` (m/s); `None` where the iteration does not converge to as many as there are.
-    pub fn spectrum(&mut self, speed: f64) -> Option<Spectrum> {
+    /// All eigenvalues at `speed` (m/s), by the dense solver where the iteration leaves doubt.
+    ///
+    /// # Errors
+    /// [`NotConverged`] where neither solver has converged.
+    pub fn spectrum(&mut self, problem: &Eigenproblem, speed: f64) -> Result<Spectrum, NotConverged> {
+        if self.failures < PATIENCE {
+            if let Some(spectrum) = self.iterate(speed) {
+                return Ok(spectrum);
+            }
+            self.failures += 1;
+        }
+        problem.spectrum(speed)
+    }
+
+    /// The same without the dense solver; `None` where the iteration does not converge to as many eigenvalues as
+    /// there are.
+    pub fn iterate(&mut self, speed: f64) -> Option<Spectrum> {
         let found = self.last.take().and_then(|near| self.solve(near, speed));
         let found = found.or_else(|| self.solve(self.at_rest(), speed)).or_else(|| {
             let apart = self.at_rest().unpaired();
@@ -104,10 +124,7 @@ impl Spectra {
         let count = estimates.values.len();
         let mut converged = vec![false; count];
         for _ in 0..SWEEPS {
-            for j in 0..count {
-                if converged[j] {
-                    continue;
-                }
+            for (j, done) in converged.iter_mut().enumerate().filter(|(_, done)| !**done) {
                 let z = estimates.values[j];
                 let mut step = (self.function.at(z, speed).by_lambda - estimates.others(j)).inv();
                 if !(step.re.is_finite() && step.im.is_finite()) {
@@ -115,7 +132,7 @@ impl Spectra {
                     step = z * 1e-8;
                 }
                 let size = z.norm();
-                converged[j] = step.norm() <= (CONVERGED * size).max(ROUNDING * self.scale);
+                *done = step.norm() <= (CONVERGED * size).max(ROUNDING * self.scale);
                 let largest = LARGEST_STEP * size;
                 if step.norm() > largest {
                     step *= largest / step.norm();
@@ -123,6 +140,7 @@ impl Spectra {
                 estimates.values[j] = z - step;
             }
             if converged.iter().all(|&done| done) {
+                let estimates = estimates.symmetric()?;
                 return self.are_all(&estimates, speed).then_some(estimates);
             }
         }
@@ -170,6 +188,32 @@ impl Estimates {
         sum
     }
 
+    /// The same as exact pairs and real numbers; `None` where they are not that to rounding.
+    fn symmetric(mut self) -> Option<Self> {
+        if self.paired {
+            return Some(self);
+        }
+        let mut open: Vec<usize> = (0..self.values.len()).collect();
+        while let Some(j) = open.pop() {
+            let value = self.values[j];
+            let gap = |k: usize| (self.values[k].conj() - value).norm();
+            let partner = (0..open.len()).min_by(|&a, &b| gap(open[a]).total_cmp(&gap(open[b])));
+            let tolerance = 2.0 * CONVERGED * value.norm();
+            match partner {
+                Some(k) if gap(open[k]) < gap(j) => {
+                    let k = open.swap_remove(k);
+                    if gap(k) > tolerance {
+                        return None;
+                    }
+                    self.values[k] = value.conj();
+                }
+                _ if gap(j) <= tolerance => self.values[j].im = 0.0,
+                _ => return None,
+            }
+        }
+        Some(self)
+    }
+
     /// All eigenvalues.
     fn all(&self) -> Vec<C64> {
         if !self.paired {
@@ -187,13 +231,21 @@ impl Estimates {
                 values.push(value.conj());
             }
         }
-        for (j, value) in values.iter_mut().enumerate() {
+        let gaps: Vec<f64> = (0..values.len()).map(|j| gap(&values, j)).collect();
+        for ((j, value), gap) in values.iter_mut().enumerate().zip(gaps) {
             // A Weyl sequence: neither symmetric nor periodic.
             let part = (j as f64 * 0.618_033_988_749_895).fract() - 0.5;
-            *value *= C64::new(1.0 + SPREAD * part, SPREAD * (0.5 + part));
+            *value += C64::new(part, 0.5 + part) * (SPREAD * gap);
         }
         Self { values, paired: false }
     }
+}
+
+/// The distance of an estimate from the nearest other one; from zero where two are the same.
+fn gap(values: &[C64], j: usize) -> f64 {
+    let others = values.iter().enumerate().filter(|&(k, _)| k != j);
+    let nearest = others.map(|(_, other)| (other - values[j]).norm()).fold(f64::INFINITY, f64::min);
+    if nearest > 0.0 { nearest } else { values[j].norm() }
 }
 
 /// 1/z without the care for overflow that the estimates do not need.
