@@ -24,6 +24,9 @@ use crate::study::Local;
 const SLICE: Duration = Duration::from_millis(8);
 /// A search that has run for longer is dropped for a newer pose.
 const PATIENCE: Duration = Duration::from_millis(400);
+/// A curve of growth rates that has taken longer is dropped for a newer pose; others are finished, so that a drag shows
+/// curves.
+const CURVE_PATIENCE: Duration = Duration::from_millis(100);
 /// The curve of growth rates goes on to this multiple of the critical speed and of today's.
 const CURVE_MARGIN: f64 = 1.3;
 /// The curve's points where the search has left none, and beyond those that it has left.
@@ -59,7 +62,7 @@ struct Pose {
 
 enum Stage {
     Searching { search: CriticalSearch, since: Instant },
-    Curve { from: f64, next: u32, to: f64, last: u32, points: Vec<[f64; 2]> },
+    Curve { from: f64, next: u32, to: f64, last: u32, points: Vec<[f64; 2]>, since: Instant },
     Done,
 }
 
@@ -94,7 +97,7 @@ impl Engine {
         };
         let finished = match &running.stage {
             Stage::Searching { since, .. } => overtaken && since.elapsed() > PATIENCE,
-            Stage::Curve { .. } => overtaken,
+            Stage::Curve { since, .. } => overtaken && since.elapsed() > CURVE_PATIENCE,
             Stage::Done => true,
         };
         if finished {
@@ -134,10 +137,11 @@ impl Stage {
 
     /// The curve of growth rates beyond what has been scanned up to the speed `from`, at zero where nothing has.
     fn curve(from: f64, to: f64) -> Self {
+        let (points, since) = (Vec::new(), Instant::now());
         match from {
             _ if to <= from => Self::Done,
-            0.0 => Self::Curve { from, next: 0, to, last: CURVE_POINTS, points: Vec::new() },
-            _ => Self::Curve { from, next: 1, to, last: CURVE_POINTS_BEYOND, points: Vec::new() },
+            0.0 => Self::Curve { from, next: 0, to, last: CURVE_POINTS, points, since },
+            _ => Self::Curve { from, next: 1, to, last: CURVE_POINTS_BEYOND, points, since },
         }
     }
 }
@@ -285,7 +289,7 @@ impl Pose {
                 self.stage = Stage::curve(scanned, end);
                 Ok(replies)
             }
-            Stage::Curve { from, next, to, last, points } => {
+            Stage::Curve { from, next, to, last, points, .. } => {
                 let speed = *from + (*to - *from) * f64::from(*next) / f64::from(*last);
                 points.push([speed, self.local.spectra.spectrum(&self.local.problem, speed)?.growth_rate()]);
                 *next += 1;

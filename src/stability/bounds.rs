@@ -185,3 +185,49 @@ impl Bounds {
         self.frequency_step() / slope
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::{Linearisation, Motion, Robot, RobotSpec, paper_spec};
+    use crate::study::Local;
+
+    fn local(linearisation: Linearisation, elements: usize, at: [f64; 2], towards: [f64; 2]) -> Local {
+        let robot = Robot::new(RobotSpec { elements, linearisation, ..paper_spec() }).unwrap();
+        Local::new(&robot, &Motion::new(at, towards, 5.0).unwrap()).unwrap()
+    }
+
+    /// Undamped frequencies are between the bounds; nothing grows at the lowest speed; what grows above it oscillates
+    /// below the highest frequency where it begins to.
+    #[test]
+    fn the_bounds_hold_for_the_papers_robot() {
+        for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
+            for (at, towards) in [([0.0, 0.0], [1.0, 0.0]), ([4.0, 1.0], [1.0, 1.0]), ([7.0, 0.0], [-1.0, 0.0])] {
+                let local = local(linearisation, 6, at, towards);
+                let bounds = Bounds::new(&local.vibration).unwrap();
+                let squares = local.problem.undamped_squares();
+                assert!(squares.iter().all(|&square| (bounds.lowest..=bounds.highest).contains(&square)));
+                let lowest = bounds.lowest_speed(40.0);
+                assert!(local.problem.spectrum(lowest).unwrap().growth_rate() < 0.0);
+                if let crate::stability::Outcome::Found(critical) = local.critical_speed(40.0).unwrap() {
+                    assert!(critical.speed > lowest);
+                    assert!(critical.eigenvalue.im < bounds.highest_frequency(critical.speed));
+                }
+            }
+        }
+    }
+
+    /// The band of frequencies does not depend on the mesh.
+    #[test]
+    fn the_band_is_that_of_the_cable_not_of_the_mesh() {
+        let bounds = |elements| {
+            let local = local(Linearisation::Tangent, elements, [0.0, 0.0], [1.0, 0.0]);
+            Bounds::new(&local.vibration).unwrap()
+        };
+        let (coarse, fine) = (bounds(10), bounds(80));
+        assert!((5.0..6.0).contains(&coarse.lowest_speed(40.0)), "{}", coarse.lowest_speed(40.0));
+        assert!((5.0..6.0).contains(&fine.lowest_speed(40.0)), "{}", fine.lowest_speed(40.0));
+        let (a, b) = (coarse.highest_frequency(11.0), fine.highest_frequency(11.0));
+        assert!(a < 40.0 && (a - b).abs() < 0.1 * a, "{a} {b}");
+    }
+}

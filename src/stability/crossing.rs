@@ -21,10 +21,11 @@ type C64 = Complex<f64>;
 const LARGEST_CELL: f64 = 0.35;
 /// A strip is at most this high, in m/s.
 const LARGEST_STRIP: f64 = 0.5;
-/// How much d ln det Q times the edge's length may change along an edge. A zero at a distance of 1.2 lengths does that.
-const LARGEST_CHANGE: f64 = 0.7;
+/// How much d ln det Q times the edge's length may change along an edge. A zero at 0.76 lengths from its middle does
+/// that; one within a cell changes it by at least 2 along an edge.
+const LARGEST_CHANGE: f64 = 1.2;
 /// How far the change of ln det Q may be from the trapezoidal rule.
-const LARGEST_ERROR: f64 = 0.2;
+const LARGEST_ERROR: f64 = 0.25;
 /// Evaluations after which the dense solver is hardly slower, for all cells and for the first ones of a strip.
 const LARGEST_EFFORT: usize = 50_000;
 const LARGEST_STRIP_EFFORT: f64 = 4000.0;
@@ -52,7 +53,14 @@ pub(super) enum Search {
 pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
     let Some(bounds) = Bounds::new(vibration) else { return Search::Doubt };
     let function = Characteristic::new(vibration);
-    let mut plane = Plane { function: &function, bounds: &bounds, zeros: Vec::new(), evaluations: 0, cell: [1.0, 1.0] };
+    let mut plane = Plane {
+        function: &function,
+        bounds: &bounds,
+        zeros: Vec::new(),
+        evaluations: 0,
+        eligible: 0.0,
+        cell: [1.0, 1.0],
+    };
     let mut from = bounds.lowest_speed(limit);
     while from < limit {
         let to = limit.min(from + LARGEST_STRIP);
@@ -62,6 +70,7 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
             return Search::Doubt;
         }
         plane.cell = [top / columns, to - from];
+        plane.eligible = bounds.highest_frequency(from);
         if plane.search(from, to, columns).is_none() {
             return Search::Doubt;
         }
@@ -123,6 +132,8 @@ struct Plane<'a> {
     bounds: &'a Bounds,
     zeros: Vec<Zero>,
     evaluations: usize,
+    /// Up to this frequency (rad/s) crossings are possible in all of the strip.
+    eligible: f64,
     /// The size of the first cells, in rad/s and m/s.
     cell: [f64; 2],
 }
@@ -146,7 +157,11 @@ impl Plane<'_> {
             let right = [self.at(omega, from), self.at(omega, to)];
             cells.push(Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] });
             while let Some(cell) = cells.pop() {
-                if first <= cell.lower[0].speed || !self.is_eligible(&cell) || self.is_free(&cell) {
+                if first <= cell.lower[0].speed || !self.is_eligible(&cell) {
+                    continue;
+                }
+                let changes = self.changes(&cell);
+                if changes[0] <= 1.0 && changes[1] <= 1.0 {
                     continue;
                 }
                 if let Some(zero) = self.zero_in(&cell) {
@@ -155,7 +170,7 @@ impl Plane<'_> {
                     cells.push(cell);
                     continue;
                 }
-                let [first, second] = self.halves(&cell);
+                let [first, second] = self.halves(&cell, changes);
                 let size = cell.size();
                 let vanishing = size[0] < SMALLEST_CELL * self.cell[0] || size[1] < SMALLEST_CELL * self.cell[1];
                 if vanishing || self.evaluations > LARGEST_EFFORT {
@@ -188,24 +203,22 @@ impl Plane<'_> {
         corner
     }
 
-    /// How far the edges are from being free of zeros, in ω and in v: at most one where they are.
+    /// How far the edges are from being free of zeros, in ω and in v: at most one where they are. Infinite in v where the
+    /// cell is too tall to tell.
     fn changes(&self, cell: &Cell) -> [f64; 2] {
         let [a, b] = cell.lower.map(|corner| self.without_zeros(&corner));
         let [c, d] = cell.upper.map(|corner| self.without_zeros(&corner));
         let size = cell.size();
         let in_omega = |a: Corner, b: Corner| change(b.log - a.log, a.by_omega * size[0], b.by_omega * size[0]);
         let in_speed = |a: Corner, b: Corner| change(b.log - a.log, a.by_speed * size[1], b.by_speed * size[1]);
-        [in_omega(a, b).max(in_omega(c, d)), in_speed(a, c).max(in_speed(b, d))]
+        let tall = if self.is_tall(cell) { f64::INFINITY } else { 0.0 };
+        [in_omega(a, b).max(in_omega(c, d)), in_speed(a, c).max(in_speed(b, d)).max(tall)]
     }
 
     /// Whether something can cross in the cell.
     fn is_eligible(&self, cell: &Cell) -> bool {
-        cell.lower[0].omega <= self.bounds.highest_frequency(cell.upper[0].speed)
-    }
-
-    fn is_free(&self, cell: &Cell) -> bool {
-        let [in_omega, in_speed] = self.changes(cell);
-        in_omega <= 1.0 && in_speed <= 1.0 && !self.is_tall(cell)
+        let omega = cell.lower[0].omega;
+        omega <= self.eligible || omega <= self.bounds.highest_frequency(cell.upper[0].speed)
     }
 
     /// Whether frequencies may move so far within the cell that a turn of the phase could be overlooked.
@@ -215,10 +228,9 @@ impl Plane<'_> {
     }
 
     /// The cell in two, the lower or left one first, across the direction in which it is less clearly free.
-    fn halves(&mut self, cell: &Cell) -> [Cell; 2] {
-        let [in_omega, in_speed] = self.changes(cell);
+    fn halves(&mut self, cell: &Cell, [in_omega, in_speed]: [f64; 2]) -> [Cell; 2] {
         let ([a, b], [c, d]) = (cell.lower, cell.upper);
-        if in_omega >= in_speed && !self.is_tall(cell) {
+        if in_omega > in_speed {
             let omega = 0.5 * (a.omega + b.omega);
             let (low, high) = (self.at(omega, a.speed), self.at(omega, c.speed));
             [Cell { lower: [a, low], upper: [c, high] }, Cell { lower: [low, b], upper: [high, d] }]
