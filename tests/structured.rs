@@ -129,7 +129,8 @@ fn check(local: &Local) -> Verdict {
 /// Whether the structured answer was found without a scan; else what is wrong, `None` where there is no referee.
 fn compare(local: &Local) -> Result<bool, Option<String>> {
     let without_scan = structured(&local.vibration, LIMIT).is_some();
-    let grows = |speed: f64| Ok(local.problem.spectrum(speed).map_err(|_| None)?.growth_rate());
+    let spectrum = |speed: f64| local.problem.spectrum(speed).map_err(|_| None::<String>);
+    let grows = |speed: f64| spectrum(speed).map(|spectrum| spectrum.growth_rate());
     let Ok(outcome) = CriticalSearch::new(LIMIT).run(&local.vibration, &local.problem) else { return Err(None) };
     let end = match &outcome {
         Outcome::Found(critical) => {
