@@ -1,6 +1,10 @@
 //! What the integration tests share: reading reference files, and comparisons that print both sides.
 #![allow(dead_code, reason = "every test file takes only what it needs")]
 
+pub mod dense;
+pub mod hung;
+pub mod random;
+
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
