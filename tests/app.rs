@@ -413,7 +413,7 @@ fn a_click_on_an_eigenvalue_shows_its_mode() {
             app.run_steps(2);
             std::thread::sleep(Duration::from_millis(20));
             app.step();
-            chosen = app.state().mode_on_show().filter(|mode| *mode != critical);
+            chosen = app.state().mode_on_show().filter(|mode| mode.map(f64::to_bits) != critical.map(f64::to_bits));
             if chosen.is_some() {
                 break 'search;
             }
