@@ -99,15 +99,19 @@ impl Dense {
         ((&reduced + reduced.transpose()) * 0.5).symmetric_eigenvalues().iter().copied().collect()
     }
 
-    /// |(λ² M + λ C + K) q| and the size of its parts, |λ² M q| + |λ C q| + |K q|, in the largest component.
-    pub fn residual(&self, lambda: Complex<f64>, q: &DVector<Complex<f64>>) -> (f64, f64) {
-        let apply = |matrix: &DMatrix<f64>, factor: Complex<f64>| matrix.map(|entry| factor * entry) * q;
-        let parts = [
-            apply(&self.mass, lambda * lambda),
-            apply(&self.damping, lambda),
-            apply(&self.stiffness, Complex::from(1.0)),
-        ];
-        let norm = |v: &DVector<Complex<f64>>| v.iter().map(|c| c.norm()).fold(0.0, f64::max);
-        (norm(&(&parts[0] + &parts[1] + &parts[2])), parts.iter().map(norm).sum())
+    /// Of Q(λ) = λ² M + λ C + K in the largest component: |Q q|, |dQ/dλ q|, and the size of Q times that of q.
+    pub fn residual(&self, lambda: Complex<f64>, q: &DVector<Complex<f64>>) -> (f64, f64, f64) {
+        let apply = |matrix: &DMatrix<f64>| {
+            let (re, im) = (matrix * q.map(|c| c.re), matrix * q.map(|c| c.im));
+            re.zip_map(&im, Complex::new)
+        };
+        let (mass, damping, stiffness) = (apply(&self.mass), apply(&self.damping), apply(&self.stiffness));
+        let norm = |v: DVector<Complex<f64>>| v.iter().map(|c| c.norm()).fold(0.0, f64::max);
+        let size = lambda.norm_sqr() * self.mass.amax() + lambda.norm() * self.damping.amax() + self.stiffness.amax();
+        (
+            norm(&mass * (lambda * lambda) + &damping * lambda + stiffness),
+            norm(mass * (lambda * 2.0) + damping),
+            size * norm(q.clone()),
+        )
     }
 }
