@@ -25,6 +25,7 @@ fn app_with(scenario: Scenario, size: Vec2, theme: Theme) -> Harness<'static, Ta
     let mut app = Harness::builder()
         .with_size(size)
         .with_theme(theme)
+        .with_step_dt(1.0 / 60.0)
         .build_eframe(|context| Tautline::new(&context.egui_ctx, scenario));
     settle(&mut app);
     app
@@ -362,4 +363,63 @@ fn nothing_shows_nan(app: &Harness<'static, Tautline>) {
     assert!(texts.len() > 20, "only {} nodes", texts.len());
     let bad: Vec<&String> = texts.iter().filter(|text| text.contains("NaN") || text.contains("inf ")).collect();
     assert!(bad.is_empty(), "{bad:?}");
+}
+
+#[test]
+fn the_wheel_zooms_about_the_pointer_and_a_double_click_goes_back() {
+    let mut app = app();
+    let platform = |app: &Harness<'static, Tautline>| app.get_by_label("Platform").rect().center();
+    let home = platform(&app);
+    let fixed = home + Vec2::new(0.0, -200.0);
+    app.hover_at(fixed);
+    app.step();
+    app.event(eframe::egui::Event::MouseWheel {
+        unit: eframe::egui::MouseWheelUnit::Point,
+        delta: Vec2::new(0.0, 120.0),
+        phase: eframe::egui::TouchPhase::Move,
+        source: eframe::egui::MouseWheelSource::Unknown,
+        modifiers: Modifiers::default(),
+    });
+    app.run_steps(60); // The wheel is smoothed over some frames.
+    let zoomed = platform(&app);
+    // The pointer's point stays; what is below it moves away from it, straight down.
+    assert!(zoomed.y > home.y + 20.0 && (zoomed.x - home.x).abs() < 1.0, "{home:?} {zoomed:?}");
+
+    drag(&mut app, fixed, fixed + Vec2::new(50.0, 10.0));
+    let panned = platform(&app);
+    assert!((panned - zoomed - Vec2::new(50.0, 10.0)).length() < 1.0, "{zoomed:?} {panned:?}");
+    assert_eq!(app.state().scenario(), &paper(), "looking changes nothing");
+
+    app.run_steps(30); // So that the drag's click is long past.
+    for _ in 0..2 {
+        click_at(&mut app, fixed);
+    }
+    app.run_steps(3);
+    assert!((platform(&app) - home).length() < 0.5, "{:?}", platform(&app));
+}
+
+#[test]
+fn a_click_on_an_eigenvalue_shows_its_mode() {
+    let mut app = app();
+    let critical = app.state().mode_on_show().expect("the critical mode");
+    // The plot fills the lower right; its points lie close to its right edge, the lowest frequencies at the bottom.
+    let tab = app.get_by_role_and_label(Role::Button, "Eigenvalues").rect();
+    let mut chosen = None;
+    'search: for up in 0..12_u8 {
+        for left in 0..6_u8 {
+            let point = Pos2::new(SIZE.x - 30.0 - 8.0 * f32::from(left), SIZE.y - 120.0 - 30.0 * f32::from(up));
+            assert!(point.y > tab.max.y, "searched the whole plot");
+            click_at(&mut app, point);
+            app.run_steps(2);
+            std::thread::sleep(Duration::from_millis(20));
+            app.step();
+            chosen = app.state().mode_on_show().filter(|mode| mode.map(f64::to_bits) != critical.map(f64::to_bits));
+            if chosen.is_some() {
+                break 'search;
+            }
+        }
+    }
+    let chosen = chosen.expect("a click near an eigenvalue chooses it");
+    let known = report(&app).eigenvalues;
+    assert!(known.contains(&chosen), "{chosen:?} is none of the eigenvalues");
 }

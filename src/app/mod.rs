@@ -1,7 +1,7 @@
 //! The interface, in the browser and on the desktop.
 //!
-//! [`state::Document`] is what the user edits; everything else on the screen follows from it. Panels draw and emit
-//! [`state::Command`]s; [`Tautline::logic`](eframe::App::logic) carries them out, sends the document to the engine and
+//! The document (`state`) is what the user edits; everything else on the screen follows from it. Panels draw and emit
+//! commands; [`Tautline::logic`](eframe::App::logic) carries them out, sends the document to the engine and
 //! takes in its replies.
 
 mod answers;

@@ -130,7 +130,9 @@ pub fn camera(ui: &Ui, background: &Response, view: &View, camera: &mut Camera) 
         return;
     }
     if background.dragged() {
-        let [x, y] = view.vec_in_world(background.drag_delta());
+        // A drag is recognised some points after it began; those count as well.
+        let begun = background.total_drag_delta().filter(|_| background.drag_started());
+        let [x, y] = view.vec_in_world(begun.unwrap_or_else(|| background.drag_delta()));
         camera.offset = [camera.offset[0] - x, camera.offset[1] - y];
     }
     let pointer = ui.input(|input| input.pointer.hover_pos().or(input.pointer.interact_pos()));

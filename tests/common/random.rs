@@ -1,0 +1,116 @@
+//! Robots and motions drawn at random.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use proptest::prelude::*;
+use tautline::mechanics::{self, Failure, Statics, StaticsError};
+use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2};
+use tautline::{Motion, Robot};
+
+/// The same robots in every run, `cases` of them; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` give others, and more.
+pub fn config(cases: u32) -> ProptestConfig {
+    let given = ProptestConfig::default();
+    let chosen = |name: &str| std::env::var_os(name).is_some();
+    ProptestConfig {
+        cases: if chosen("PROPTEST_CASES") { given.cases } else { cases },
+        rng_seed: if chosen("PROPTEST_RNG_SEED") { given.rng_seed } else { prop::test_runner::RngSeed::Fixed(1) },
+        // Most poses of most robots have no equilibrium; those are passed over where a test needs one.
+        max_global_rejects: 1_000_000,
+        // Simplified robots are degenerate in ways of their own: vertical cables, anchors at one place.
+        max_shrink_iters: 0,
+        failure_persistence: None,
+        ..given
+    }
+}
+
+/// The statics where the pose has any. An iteration that gives up is a failure.
+pub fn statics(robot: &Robot, position: Vec2) -> Option<Statics> {
+    match mechanics::solve(robot, position) {
+        Ok(statics) => Some(statics),
+        Err(Failure { reason: StaticsError::Infeasible(_), .. }) => None,
+        Err(failure) => panic!("{failure} at {position:?}: {robot:?}"),
+    }
+}
+
+/// A robot of 3 to 8 cables with a pose inside its anchors or somewhat outside.
+pub fn moving_robot(elements: Range<usize>) -> impl Strategy<Value = (Robot, Motion)> {
+    let motion = (-7.0..7.0, -4.0..4.0, 0.0..TAU, 0.0..8.0).prop_map(|(x, y, angle, speed): (f64, f64, f64, f64)| {
+        Motion::new([x, y], [angle.cos(), angle.sin()], speed).expect("a motion")
+    });
+    (robot(elements), motion)
+}
+
+/// A robot of 3 to 8 cables.
+pub fn robot(elements: Range<usize>) -> impl Strategy<Value = Robot> {
+    let physics = (
+        prop_oneof![Just(0.0), Just(9.81), 0.0..20.0],  // g
+        (3.0..7.0).prop_map(|e: f64| 10.0_f64.powf(e)), // EA
+        0.02..0.6,                                      // μ
+        0.5..30.0,                                      // m
+        prop_oneof![Just(Strain::Green), Just(Strain::Engineering)],
+        prop_oneof![Just(Linearisation::Secant), Just(Linearisation::Tangent)],
+        (0.0..2.0, 0.0..0.01).prop_map(|(alpha, beta)| Damping { alpha, beta }),
+        elements,
+    );
+    let together = |((gravity, stiffness, mu, mass, strain, linearisation, damping, elements), cables)| {
+        let spec = RobotSpec {
+            gravity,
+            youngs_modulus: stiffness / 5e-5,
+            area: 5e-5,
+            mass_per_length: mu,
+            strain,
+            platform_mass: mass,
+            cables,
+            elements,
+            damping,
+            linearisation,
+        };
+        Robot::new(spec).expect("a robot")
+    };
+    (physics, cables()).prop_map(together)
+}
+
+/// Anchors near the corners of a rectangle 20 m × 10 m and then anywhere, or all of them anywhere; any two cables at
+/// equilibrium, more often the first two: the upper ones of the rectangle.
+fn cables() -> impl Strategy<Value = Vec<Cable>> {
+    let anywhere = || (-12.0..12.0, -7.0..7.0).prop_map(|(x, y)| Vec2::new(x, y));
+    let rectangle = prop::collection::vec((-2.0..2.0, -2.0..2.0), 4).prop_map(|jitter| {
+        let corners = [(-10.0, 5.0), (10.0, 5.0), (-10.0, -5.0), (10.0, -5.0)];
+        corners.into_iter().zip(jitter).map(|((x, y), (dx, dy))| Vec2::new(x + dx, y + dy)).collect::<Vec<_>>()
+    });
+    let anchors = prop_oneof![
+        (rectangle, prop::collection::vec(anywhere(), 0..5)).prop_map(|(corners, more)| [corners, more].concat()),
+        prop::collection::vec(anywhere(), 3..9),
+    ];
+    let constant = || (20.0..300.0).prop_map(TensionLaw::Constant);
+    let slope = || -4.0..4.0;
+    let law = move || {
+        (30.0..150.0, slope(), slope(), 30.0..150.0, slope(), slope())
+            .prop_map(|(h, hx, hy, v, vx, vy)| TensionLaw::Hypot { horizontal: [h, hx, hy], vertical: [v, vx, vy] })
+    };
+    let laws = prop::collection::vec(prop_oneof![constant(), law()], 8);
+    let pair = prop_oneof![Just((0, 1)), (0..8_usize, 1..8_usize)];
+    (anchors, laws, pair).prop_map(|(anchors, laws, (a, step))| {
+        let (a, b) = (a % anchors.len(), (a + step) % anchors.len());
+        let b = if a == b { (a + 1) % anchors.len() } else { b };
+        let tension = |i: usize| if i == a || i == b { TensionLaw::Equilibrium } else { laws[i] };
+        anchors.iter().enumerate().map(|(i, &anchor)| Cable { anchor, tension: tension(i) }).collect()
+    })
+}
+
+/// The robot and its motion seen in a mirror, its cables numbered from the other side.
+pub fn mirrored(robot: &Robot, motion: &Motion) -> (Robot, Motion) {
+    let flip = |v: Vec2| Vec2::new(-v.x, v.y);
+    let flip_law = |law| match law {
+        TensionLaw::Hypot { horizontal: [h, hx, hy], vertical: [v, vx, vy] } => {
+            TensionLaw::Hypot { horizontal: [h, -hx, hy], vertical: [v, -vx, vy] }
+        }
+        other => other,
+    };
+    let cable = |cable: &Cable| Cable { anchor: flip(cable.anchor), tension: flip_law(cable.tension) };
+    let cables = robot.cables.iter().rev().map(cable).collect();
+    let robot = Robot::new(RobotSpec { cables, ..(**robot).clone() }).expect("a robot");
+    let motion = Motion::new(flip(motion.position()), flip(motion.direction()), motion.speed());
+    (robot, motion.expect("a motion"))
+}

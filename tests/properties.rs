@@ -1,0 +1,178 @@
+//! Statics and length rates of robots drawn at random: equations, taut branch, derivatives, symmetries.
+
+mod common;
+
+use common::close;
+use common::hung::{self, Hung};
+use common::random::{config, mirrored, moving_robot, statics};
+use proptest::prelude::*;
+use tautline::mechanics::{CableShape, length_rates};
+use tautline::robot::{Cable, TensionLaw, Vec2};
+use tautline::{Motion, Robot};
+
+/// The tension that a cable's law prescribes.
+fn prescribed(cable: &Cable, at: Vec2) -> Option<f64> {
+    let part = |c: [f64; 3]| c[0] + c[1] * at.x + c[2] * at.y;
+    match cable.tension {
+        TensionLaw::Equilibrium => None,
+        TensionLaw::Constant(tension) => Some(tension),
+        TensionLaw::Hypot { horizontal, vertical } => Some(part(horizontal).hypot(part(vertical))),
+    }
+}
+
+/// One cable's shape satisfies the axial law and the balance of every node, and ends at the anchor.
+fn check_shape(robot: &Robot, platform: Vec2, anchor: Vec2, shape: &CableShape) {
+    let (n, law) = (robot.elements, Hung::of(robot));
+    let l = shape.length / n as f64;
+    let weight = Vec2::new(0.0, robot.weight_per_length() * l);
+    let chord = (anchor - platform).norm();
+    let size = shape.nodes.iter().map(Vec2::norm).fold(chord, f64::max);
+    assert_eq!((shape.nodes.len(), shape.forces.len()), (n + 1, n));
+    assert!(shape.length > 0.0 && shape.forces[0] == shape.t0);
+    assert_eq!(shape.nodes[0], platform);
+    // A rounding per element, each of the size of the coordinates.
+    let rounding = f64::EPSILON * size * (n + 4) as f64;
+    close((shape.nodes[n] - anchor).norm(), 0.0, 10.0 * rounding, "distance of the end from the anchor");
+    for (k, (&t, ends)) in shape.forces.iter().zip(shape.nodes.windows(2)).enumerate() {
+        let span = ends[1] - ends[0];
+        let (force, slope) = law.law(span.norm() / l);
+        // The difference of two nodes has their rounding: over l it is that of the stretch.
+        let of_stretch = 4.0 * f64::EPSILON * size / l;
+        close(force, t.norm(), slope * of_stretch, format_args!("axial law of element {k}"));
+        let across = t.normalize().perp(&span);
+        close(across, 0.0, of_stretch * l, format_args!("distance of element {k} from its force's line"));
+        let next = if k + 1 < n { shape.forces[k + 1] } else { t + weight };
+        let balance = (next - t - weight).norm();
+        close(balance, 0.0, 2.0 * f64::EPSILON * next.norm(), format_args!("balance of node {}", k + 1));
+    }
+    let (first, last) = (shape.forces[0], shape.forces[n - 1]);
+    let rounding = 4.0 * f64::EPSILON * (first.norm() + last.norm());
+    close(shape.tension_at_platform, (first - weight / 2.0).norm(), rounding, "tension at the platform");
+    close(shape.tension_at_winch, (last + weight / 2.0).norm(), rounding, "tension at the winch");
+}
+
+proptest! {
+    #![proptest_config(config(400))]
+
+    #[test]
+    fn statics_satisfy_their_equations((robot, motion) in moving_robot(2..25)) {
+        let found = statics(&robot, motion.position());
+        prop_assume!(found.is_some());
+        let found = found.unwrap();
+        let law = Hung::of(&robot);
+        let own_weight = Vec2::new(0.0, robot.platform_mass * robot.gravity);
+        let (mut sum, mut size) = (-own_weight, own_weight.norm());
+        for (i, (cable, shape)) in robot.cables.iter().zip(&found.cables).enumerate() {
+            check_shape(&robot, motion.position(), cable.anchor, shape);
+            let force = law.platform_force(shape);
+            sum += force;
+            size += force.norm();
+            if let Some(tension) = prescribed(cable, motion.position()) {
+                let rounding = 8.0 * f64::EPSILON * (tension + shape.t0.norm());
+                close(shape.tension_at_platform, tension, rounding, format_args!("tension of cable {}", i + 1));
+            }
+        }
+        close(sum.norm(), 0.0, 8.0 * f64::EPSILON * size, "balance of the platform");
+    }
+
+    /// L' and L'' against differences of the statics of order 4, whose own error is told by halving the step: it falls
+    /// to 1/16, so the finer one is off by 1/15 of what the two differ by, or somewhat more where the next order counts.
+    #[test]
+    fn length_rates_are_derivatives_of_the_lengths((robot, motion) in moving_robot(2..25)) {
+        let h = 0.005;
+        let at = |steps: f64| statics(&robot, motion.position() + motion.direction() * (steps * h));
+        let found: Option<Vec<_>> = [-4.0, -2.0, -1.0, 0.0, 1.0, 2.0, 4.0].into_iter().map(at).collect();
+        prop_assume!(found.is_some());
+        let found = found.unwrap();
+        let rates = length_rates(&robot, &found[3], motion.direction()).expect("length rates");
+        for (i, rate) in rates.iter().enumerate() {
+            let length = |k: usize| found[k].cables[i].length;
+            // Differences over −2h, −h, h, 2h, with h = `step`, and the numbers of those lengths.
+            let first = |[a, b, c, d]: [usize; 4], step: f64| {
+                (8.0 * (length(c) - length(b)) - (length(d) - length(a))) / (12.0 * step)
+            };
+            let second = |[a, b, c, d]: [usize; 4], step: f64| {
+                let sum = 16.0 * (length(b) + length(c)) - (length(a) + length(d));
+                (sum - 30.0 * length(3)) / (12.0 * step * step)
+            };
+            let (coarse, fine) = ([0, 1, 5, 6], [1, 2, 4, 5]);
+            let (first_coarse, first_fine) = (first(coarse, 2.0 * h), first(fine, h));
+            let (second_coarse, second_fine) = (second(coarse, 2.0 * h), second(fine, h));
+            // Lengths are known to some roundings; 18/12 and 64/12 of them make up the differences.
+            let rounding = 32.0 * f64::EPSILON * length(3);
+            let first_allowed = 0.2 * (first_coarse - first_fine).abs() + 1.5 * rounding / h;
+            let second_allowed = 0.2 * (second_coarse - second_fine).abs() + 5.4 * rounding / (h * h);
+            close(rate.first, first_fine, first_allowed, format_args!("L' of cable {}", i + 1));
+            close(rate.second, second_fine, second_allowed, format_args!("L'' of cable {}", i + 1));
+        }
+    }
+
+    /// Turning the direction round turns L' round and leaves L''; its length does not matter; a mirror changes nothing.
+    #[test]
+    fn length_rates_know_no_left_and_right((robot, motion) in moving_robot(2..25), scale in 1e-3..1e3) {
+        let (position, direction) = (motion.position(), motion.direction());
+        let found = statics(&robot, position);
+        prop_assume!(found.is_some());
+        let found = found.unwrap();
+        let rates = length_rates(&robot, &found, direction).expect("length rates");
+        let back = length_rates(&robot, &found, -direction).expect("length rates");
+        let longer = Motion::new(position, direction * scale, motion.speed()).expect("a motion");
+        close((longer.direction() - direction).norm(), 0.0, 2.0 * f64::EPSILON, "a longer direction");
+        let scaled = length_rates(&robot, &found, longer.direction()).expect("length rates");
+        let (mirror, mirror_motion) = mirrored(&robot, &motion);
+        let reflection = statics(&mirror, mirror_motion.position()).expect("statics in the mirror");
+        let mirror_rates = length_rates(&mirror, &reflection, mirror_motion.direction()).expect("length rates");
+        for (i, rate) in rates.iter().enumerate() {
+            close(back[i].first, -rate.first, 0.0, "L' backwards");
+            close(back[i].second, rate.second, 0.0, "L'' backwards");
+            let j = rates.len() - 1 - i;
+            // Where the equilibrium cables pull nearly along one line, or a taut branch is about to end, derivatives
+            // lose digits: a few thousand random robots lose at most 5 of L' and 9 of L''. A wrong sign costs all.
+            let size = (1.0 + rate.first.abs() + rate.second.abs()).powi(2);
+            for (what, other) in [("for a longer direction", scaled[i]), ("in the mirror", mirror_rates[j])] {
+                close(other.first, rate.first, 1e-11 * size, format_args!("L' {what}"));
+                close(other.second, rate.second, 1e-7 * size, format_args!("L'' {what}"));
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(100))]
+
+    /// No shorter cable has the prescribed tension, and no shorter pair balances the platform.
+    #[test]
+    fn the_shape_found_is_the_taut_one((robot, motion) in moving_robot(2..25)) {
+        let platform = motion.position();
+        let found = statics(&robot, platform);
+        prop_assume!(found.is_some());
+        let found = found.unwrap();
+        let law = Hung::of(&robot);
+        let mut load = Vec2::new(0.0, robot.platform_mass * robot.gravity);
+        for i in robot.prescribed() {
+            let (shape, chord) = (&found.cables[i], robot.cables[i].anchor - platform);
+            let force = law.platform_force(shape);
+            load -= force;
+            let hung = law.force(chord, shape.length).expect("a cable of the same length");
+            // The stretch is known to some roundings, and with it the force to those of the stiffness.
+            let rounding = 64.0 * f64::EPSILON * (robot.axial_stiffness() + force.norm());
+            close((hung - force).norm(), 0.0, rounding, format_args!("force of cable {}", i + 1));
+            for (length, other) in law.curve(chord) {
+                prop_assert!(length >= shape.length * (1.0 - 1e-9) || other.norm() > force.norm(),
+                    "cable {}: {} m and {length} m both have the tension", i + 1, shape.length);
+            }
+        }
+        let pair = robot.pair();
+        let curves = pair.map(|i| law.curve(robot.cables[i].anchor - platform));
+        let ours = [0, 1].map(|k| hung::place(&curves[k], found.cables[pair[k]].length));
+        // Beyond the curves: more than 1e5 N or thrice the length of the chord.
+        prop_assume!((0..2).all(|k| ours[k] > 1 && ours[k] + 2 < curves[k].len()));
+        let all = hung::crossings(&curves, load);
+        let at_ours = |at: &[usize; 2]| (0..2).all(|k| at[k].abs_diff(ours[k]) <= 1);
+        prop_assert!(all.iter().any(at_ours), "{ours:?} is not among {all:?}");
+        let total = |at: &[usize; 2]| curves[0][at[0]].0 + curves[1][at[1]].0;
+        for other in all.iter().filter(|at| !at_ours(at)) {
+            prop_assert!(total(other) > total(&ours), "{ours:?} is not the tautest of {all:?}");
+        }
+    }
+}

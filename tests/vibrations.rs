@@ -1,0 +1,148 @@
+//! Spectra, modes and critical speeds of robots drawn at random.
+//!
+//! The referee is `common::dense`: full matrices put together from the theory without the crate's elements. Their
+//! traces give the sum of all eigenvalues and of their squares, so none can be missing, doubled or invented.
+
+mod common;
+
+use common::dense::Dense;
+use common::random::{config, mirrored, moving_robot, statics};
+use common::{close, largest, same_multiset};
+use nalgebra::{Complex, DVector};
+use proptest::prelude::*;
+use tautline::robot::Damping;
+use tautline::stability::{CriticalSearch, Mode, Outcome, Polarisation, Sample, mode};
+use tautline::{Local, Motion, Robot};
+
+type C64 = Complex<f64>;
+
+/// The pose's local problem, where there is one.
+fn local(robot: &Robot, motion: &Motion) -> Option<Local> {
+    statics(robot, motion.position()).map(|_| Local::new(robot, motion).expect("what depends on statics"))
+}
+
+/// A mode's displacements in the order of [`Dense`].
+fn unknowns(mode: &Mode) -> DVector<C64> {
+    let platform = mode.displacement[0][0];
+    for cable in &mode.displacement {
+        assert_eq!(cable[0], platform, "the platform as every cable sees it");
+        assert_eq!(cable[cable.len() - 1].norm(), 0.0, "a winch");
+    }
+    let inner = mode.displacement.iter().flat_map(|cable| &cable[1..cable.len() - 1]);
+    let all: Vec<C64> = [&platform].into_iter().chain(inner).flat_map(|d| d.iter().copied()).collect();
+    all.into()
+}
+
+/// Both roots of λ² + (α + β ω²) λ + ω² = 0, without cancellation where they are real.
+fn damped(squared_frequency: f64, damping: Damping) -> [C64; 2] {
+    let half = 0.5 * (damping.alpha + damping.beta * squared_frequency);
+    let under_root = C64::from(half * half - squared_frequency).sqrt();
+    let larger = -(under_root + half);
+    [larger, squared_frequency / larger]
+}
+
+proptest! {
+    #![proptest_config(config(80))]
+
+    #[test]
+    fn spectra_are_those_of_the_full_matrices((robot, motion) in moving_robot(2..10)) {
+        let found = local(&robot, &motion);
+        prop_assume!(found.is_some());
+        let local = found.unwrap();
+        let dense = Dense::new(&robot, &local.statics, &local.rates, motion.speed());
+        let spectrum = local.problem.spectrum(motion.speed()).expect("a spectrum");
+        let eigenvalues: Vec<C64> = spectrum.eigenvalues().collect();
+        let top = largest(&eigenvalues);
+
+        let nodes = 1 + robot.cables.len() * (robot.elements - 1);
+        assert_eq!(eigenvalues.len(), 4 * nodes, "four eigenvalues per node that moves");
+        let conjugates: Vec<C64> = eigenvalues.iter().map(Complex::conj).collect();
+        same_multiset(&eigenvalues, &conjugates, 1e-14 * top, "eigenvalues against their conjugates");
+        let growth = eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max);
+        close(spectrum.growth_rate(), growth, 0.0, "the largest growth rate");
+
+        let (sum, sum_of_squares) = dense.moments();
+        let squares: Vec<C64> = eigenvalues.iter().map(|l| l * l).collect();
+        for (what, values, expected) in [("eigenvalues", &eigenvalues, sum), ("squares", &squares, sum_of_squares)] {
+            let (total, size): (C64, f64) = (values.iter().sum(), values.iter().map(|l| l.norm()).sum());
+            // A backward stable solver leaves the traces as they are but for rounding.
+            close((total - expected).norm(), 0.0, 1e-12 * size, format_args!("sum of the {what}"));
+        }
+
+        for value in spectrum.modes() {
+            for polarisation in [Polarisation::X, Polarisation::Y] {
+                let mode = mode(&local.vibration, motion.speed(), value.eigenvalue, polarisation);
+                let (residual, slope, size) = dense.residual(value.eigenvalue, &unknowns(&mode));
+                // An eigenvalue is known to rounding of the fastest one, a shape to that of the stiffest spring times
+                // what elimination without pivoting costs where the flow makes modes steep.
+                let allowed = 1e-12 * top * slope + 1e-9 * size;
+                close(residual, 0.0, allowed, format_args!("residual of the mode at {}", value.eigenvalue));
+                let shares = mode.platform_share + mode.cable_share.iter().sum::<f64>();
+                close(shares, 1.0, 1e-12, "shares of the kinetic energy");
+            }
+        }
+    }
+
+    /// At rest the damping is a polynomial of the undamped problem, whose modes stay.
+    #[test]
+    fn at_rest_eigenvalues_follow_from_the_undamped_ones((robot, motion) in moving_robot(2..10)) {
+        let found = local(&robot, &motion);
+        prop_assume!(found.is_some());
+        let local = found.unwrap();
+        let squared = Dense::new(&robot, &local.statics, &local.rates, 0.0).squared_frequencies();
+        let expected: Vec<C64> = squared.iter().flat_map(|&w| damped(w, robot.damping)).collect();
+        let actual: Vec<C64> = local.problem.spectrum(0.0).expect("a spectrum").eigenvalues().collect();
+        // Two nearly equal roots of one quadratic are known to the root of rounding only.
+        let allowed = 1e-11 * largest(&expected);
+        same_multiset(&actual, &expected, allowed, "eigenvalues at rest");
+        prop_assert!(actual.iter().all(|l| l.re < 0.0), "at rest all damped motion dies out");
+    }
+}
+
+/// The search for the critical speed up to `limit` with the growth rates on its way.
+fn search(local: &Local, limit: f64) -> (Outcome, Vec<Sample>) {
+    let mut search = CriticalSearch::new(limit);
+    loop {
+        if let Some(outcome) = search.advance(&local.vibration, &local.problem).expect("eigenvalues") {
+            return (outcome, search.samples().to_vec());
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(20))]
+
+    /// Few elements, so that it is quick.
+    #[test]
+    fn the_growth_rate_changes_sign_at_the_critical_speed((robot, motion) in moving_robot(2..5)) {
+        let limit = 6.0;
+        let found = local(&robot, &motion);
+        prop_assume!(found.is_some());
+        let local = found.unwrap();
+        let (outcome, samples) = search(&local, limit);
+        let Outcome::Found(critical) = outcome else {
+            return Err(TestCaseError::reject("stable up to the limit"));
+        };
+        let unstable = samples.iter().position(|sample| sample.growth_rate > 0.0);
+        prop_assert_eq!(unstable, Some(samples.len() - 1), "the scan ends at the first unstable speed");
+        let [before, after] = [samples.len() - 2, samples.len() - 1].map(|k| samples[k].speed);
+        prop_assert!(before < critical.speed && critical.speed < after, "{before} {critical:?} {after}");
+
+        let spectrum = |speed: f64| local.problem.spectrum(speed).expect("a spectrum");
+        let around = [critical.speed - 1e-6, critical.speed + 1e-6].map(|speed| spectrum(speed).growth_rate());
+        prop_assert!(around[0] < 0.0 && around[1] > 0.0, "{around:?} around {critical:?}");
+        let eigenvalues: Vec<C64> = spectrum(critical.speed).eigenvalues().collect();
+        let slope = (around[1] - around[0]) / 2e-6;
+        // The search ends at 1e-9 m/s; the growth rate is known to rounding of the fastest eigenvalue.
+        let rounding = 1e-13 * largest(&eigenvalues);
+        close(critical.eigenvalue.re, 0.0, slope * 1e-9 + rounding, "growth rate at the critical speed");
+
+        let (mirror, mirror_motion) = mirrored(&robot, &motion);
+        let reflection = Local::new(&mirror, &mirror_motion).expect("statics in the mirror");
+        let Outcome::Found(other) = search(&reflection, limit).0 else {
+            panic!("stable in the mirror, {critical:?} before it");
+        };
+        close(other.speed, critical.speed, 2e-9 + rounding / slope, "critical speed in the mirror");
+        assert_eq!(other.kind, critical.kind, "kind in the mirror");
+    }
+}
