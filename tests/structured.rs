@@ -19,8 +19,10 @@ const AGREEMENT: f64 = 1e-6;
 const SMALL: usize = 60;
 /// Eigenvalues nearer to −1/β than this part of it are crowded.
 const CROWD: f64 = 0.1;
-/// Seeds of robots that were answered wrongly once.
-const FIXED: [u64; 0] = [];
+/// The dense solver's growth rates are known to this part of the largest frequency where eigenvalues crowd.
+const ROUNDING: f64 = 1e-8;
+/// Seeds of robots that were answered wrongly, or seemed to be, once.
+const FIXED: [u64; 1] = [5664];
 
 /// Uniform numbers by `SplitMix64`.
 struct Numbers(u64);
@@ -67,12 +69,13 @@ fn random(seed: u64) -> Local {
         while cables.len() < number {
             let side = if cables.len() % 2 == 0 { -1.0 } else { 1.0 };
             let anchor = Vec2::new(side * pick.within(2.0, 12.0), pick.within(-8.0, -3.0));
-            let tension = match pick.one_of(&[false, true]) {
-                true => TensionLaw::Constant(pick.decades(20.0, 400.0)),
-                false => TensionLaw::Hypot {
+            let tension = if pick.one_of(&[false, true]) {
+                TensionLaw::Constant(pick.decades(20.0, 400.0))
+            } else {
+                TensionLaw::Hypot {
                     horizontal: [pick.within(20.0, 120.0), pick.within(-5.0, 5.0), pick.within(-2.0, 2.0)],
                     vertical: [pick.within(20.0, 90.0), pick.within(-2.0, 2.0), 0.0],
-                },
+                }
             };
             cables.push(Cable { anchor, tension });
         }
@@ -132,10 +135,12 @@ fn compare(local: &Local) -> Result<bool, Option<String>> {
     let spectrum = |speed: f64| local.problem.spectrum(speed).map_err(|_| None::<String>);
     let grows = |speed: f64| spectrum(speed).map(|spectrum| spectrum.growth_rate());
     let Ok(outcome) = CriticalSearch::new(LIMIT).run(&local.vibration, &local.problem) else { return Err(None) };
+    // Where the dense solver has been asked, the answer carries its rounding.
+    let rounding = if without_scan { 0.0 } else { ROUNDING * local.problem.scale() };
     let end = match &outcome {
         Outcome::Found(critical) => {
             let (below, above) = (grows(critical.speed - AGREEMENT)?, grows(critical.speed + AGREEMENT)?);
-            if !(below <= 0.0 && above > 0.0) {
+            if below > rounding || above <= -rounding {
                 return Err(Some(format!("{critical:?}: growth {below:e} below and {above:e} above")));
             }
             critical.speed - AGREEMENT
@@ -148,10 +153,9 @@ fn compare(local: &Local) -> Result<bool, Option<String>> {
             (Outcome::Found(a), Outcome::Found(b)) => {
                 // A crossing and its return within one step of the scan are seen by the structured search alone.
                 let finer = a.speed < (b.speed / SCAN_STEP).floor() * SCAN_STEP;
-                ((a.speed - b.speed).abs() <= AGREEMENT || finer) && (finer || (a.kind, a.cable) == (b.kind, b.cable))
+                finer || (a.speed - b.speed).abs() <= AGREEMENT && (a.kind, a.cable) == (b.kind, b.cable)
             }
-            (Outcome::NoneUpTo(_), Outcome::NoneUpTo(_)) => true,
-            (Outcome::Found(_), Outcome::NoneUpTo(_)) => true,
+            (_, Outcome::NoneUpTo(_)) => true,
             (Outcome::NoneUpTo(_), Outcome::Found(_)) => false,
         };
         return if agree { Ok(without_scan) } else { Err(Some(format!("{outcome:?}, but dense {dense:?}"))) };
@@ -160,7 +164,7 @@ fn compare(local: &Local) -> Result<bool, Option<String>> {
     for k in 1..=speeds {
         let speed = end * f64::from(k) / f64::from(speeds);
         let rate = grows(speed)?;
-        if rate > 0.0 {
+        if rate > rounding {
             return Err(Some(format!("{outcome:?}, but growth {rate:e} at {speed}")));
         }
     }
