@@ -1,34 +1,59 @@
 //! Start-up of the desktop application, the command line and the page.
 
-#[cfg(feature = "app")]
-struct Hello;
-
-#[cfg(feature = "app")]
-impl eframe::App for Hello {
-    fn ui(&mut self, ui: &mut eframe::egui::Ui, _frame: &mut eframe::Frame) {
-        ui.heading("Tautline");
-    }
-}
-
 #[cfg(all(feature = "app", target_arch = "wasm32"))]
 fn main() {
+    use tautline::app::Tautline;
+    use tautline::scenario::presets;
     use wasm_bindgen::JsCast as _;
+
     console_error_panic_hook::set_once();
     let canvas = web_sys::window()
-        .and_then(|w| w.document())
-        .and_then(|d| d.get_element_by_id("tautline-canvas"))
-        .and_then(|e| e.dyn_into::<web_sys::HtmlCanvasElement>().ok());
-    let Some(canvas) = canvas else { return };
+        .and_then(|window| window.document())
+        .and_then(|document| document.get_element_by_id("tautline-canvas"))
+        .and_then(|element| element.dyn_into::<web_sys::HtmlCanvasElement>().ok());
+    let Some(canvas) = canvas else {
+        web_sys::console::error_1(&"the page has no canvas \"tautline-canvas\"".into());
+        return;
+    };
     wasm_bindgen_futures::spawn_local(async move {
-        let _ = eframe::WebRunner::new()
-            .start(canvas, eframe::WebOptions::default(), Box::new(|_| Ok(Box::new(Hello))))
-            .await;
+        let create: eframe::AppCreator<'static> =
+            Box::new(|context| Ok(Box::new(Tautline::new(&context.egui_ctx, presets::PRESETS[0].scenario()))));
+        if let Err(error) = eframe::WebRunner::new().start(canvas, eframe::WebOptions::default(), create).await {
+            // The page hears of it and tells it.
+            wasm_bindgen::throw_val(error);
+        }
     });
 }
 
-#[cfg(all(feature = "app", not(target_arch = "wasm32")))]
-fn main() -> eframe::Result {
-    eframe::run_native("Tautline", eframe::NativeOptions::default(), Box::new(|_| Ok(Box::new(Hello))))
+#[cfg(all(feature = "app", feature = "cli", not(target_arch = "wasm32")))]
+fn main() -> std::process::ExitCode {
+    use tautline::app::Tautline;
+    use tautline::cli;
+    use tautline::scenario::presets;
+
+    let scenario = match cli::run() {
+        cli::Start::Done(code) => return code,
+        cli::Start::App { scenario } => scenario.map_or_else(|| presets::PRESETS[0].scenario(), |scenario| *scenario),
+    };
+    // For pictures and tests; otherwise the system's theme counts.
+    let theme = match std::env::var("TAUTLINE_THEME").unwrap_or_default().as_str() {
+        "light" => Some(eframe::egui::Theme::Light),
+        "dark" => Some(eframe::egui::Theme::Dark),
+        _ => None,
+    };
+    let viewport =
+        eframe::egui::ViewportBuilder::default().with_inner_size([1280.0, 800.0]).with_min_inner_size([340.0, 480.0]);
+    let options = eframe::NativeOptions { viewport, ..Default::default() };
+    let create: eframe::AppCreator<'static> = Box::new(move |context| {
+        if let Some(theme) = theme {
+            context.egui_ctx.set_theme(theme);
+        }
+        Ok(Box::new(Tautline::new(&context.egui_ctx, scenario)))
+    });
+    match eframe::run_native("Tautline", options, create) {
+        Ok(()) => std::process::ExitCode::SUCCESS,
+        Err(error) => cli::fail(&format!("the window could not be opened: {error}")),
+    }
 }
 
 #[cfg(all(feature = "cli", not(feature = "app"), not(target_arch = "wasm32")))]
@@ -41,5 +66,5 @@ fn main() -> std::process::ExitCode {
     }
 }
 
-#[cfg(not(any(feature = "app", all(feature = "cli", not(target_arch = "wasm32")))))]
+#[cfg(not(any(feature = "cli", all(feature = "app", target_arch = "wasm32"))))]
 fn main() {}

@@ -39,12 +39,12 @@ pub enum TensionLaw {
     Equilibrium,
     /// The tension at the platform is this constant, in newtons.
     Constant(f64),
-    /// The tension at the platform is hypot(h₀ + hₓ x + h_y y, v₀ + vₓ x + v_y y), in newtons, at the
+    /// The tension at the platform is `hypot(h₀ + hₓ x + h_y y, v₀ + vₓ x + v_y y)`, in newtons, at the
     /// platform's position (x, y).
     Hypot {
-        /// h₀ in N, hₓ and h_y in N/m.
+        /// h₀ in N, hₓ and `h_y` in N/m.
         horizontal: [f64; 3],
-        /// v₀ in N, vₓ and v_y in N/m.
+        /// v₀ in N, vₓ and `v_y` in N/m.
         vertical: [f64; 3],
     },
 }

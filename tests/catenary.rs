@@ -57,7 +57,7 @@ impl Hanging {
         let (mut before, mut now) = (1.001 * tension, tension);
         let (mut excess_before, mut excess_now) = (excess(before), excess(now));
         for _ in 0..20 {
-            if excess_now.abs() < 1e-13 * length || excess_now == excess_before {
+            if excess_now.abs() < 1e-13 * length || excess_now.total_cmp(&excess_before).is_eq() {
                 break;
             }
             let next = now - excess_now * (now - before) / (excess_now - excess_before);

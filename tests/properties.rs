@@ -26,7 +26,7 @@ fn check_shape(robot: &Robot, platform: Vec2, anchor: Vec2, shape: &CableShape) 
     let l = shape.length / n as f64;
     let weight = Vec2::new(0.0, robot.weight_per_length() * l);
     let chord = (anchor - platform).norm();
-    let size = shape.nodes.iter().map(|node| node.norm()).fold(chord, f64::max);
+    let size = shape.nodes.iter().map(Vec2::norm).fold(chord, f64::max);
     assert_eq!((shape.nodes.len(), shape.forces.len()), (n + 1, n));
     assert!(shape.length > 0.0 && shape.forces[0] == shape.t0);
     assert_eq!(shape.nodes[0], platform);

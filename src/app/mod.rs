@@ -1,1 +1,260 @@
-//! The interface.
+//! The interface, in the browser and on the desktop.
+//!
+//! The document (`state`) is what the user edits; everything else on the screen follows from it. Panels draw and emit
+//! commands; [`Tautline::logic`](eframe::App::logic) carries them out, sends the document to the engine and
+//! takes in its replies.
+
+mod answers;
+mod canvas;
+mod fields;
+#[cfg(target_arch = "wasm32")]
+mod page;
+mod panels;
+mod state;
+mod theme;
+
+use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
+
+use answers::Answers;
+use state::{Command, Document, Page, UiState};
+
+use crate::compute::Compute;
+use crate::compute::protocol::{Job, Request, Revision, Update, Which};
+use crate::scenario::report::DEFAULT_MAX_SPEED;
+use crate::scenario::{Report, Scenario};
+
+/// Below this width, in points, the panels go under the canvas.
+const NARROW: f32 = 760.0;
+
+/// The application.
+pub struct Tautline {
+    document: Document,
+    /// What values reset to.
+    original: Scenario,
+    state: UiState,
+    answers: Answers,
+    compute: Option<Compute>,
+    revision: Revision,
+    notice: Option<String>,
+    commands: Vec<Command>,
+    #[cfg(target_arch = "wasm32")]
+    page: page::Page,
+}
+
+/// The analysis on show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OnShow<'a> {
+    /// The last complete analysis.
+    pub report: &'a Report,
+    /// The document's state that it belongs to.
+    pub revision: Revision,
+    /// Whether the document is still in that state.
+    pub current: bool,
+}
+
+impl Tautline {
+    /// The application with `scenario`, which must be physical.
+    pub fn new(context: &egui::Context, scenario: Scenario) -> Self {
+        theme::install_fonts(context);
+        let wake = context.clone();
+        let mut answers = Answers::default();
+        let compute = match Compute::start(move || wake.request_repaint()) {
+            Ok(compute) => Some(compute),
+            Err(reason) => {
+                answers.break_down(reason);
+                None
+            }
+        };
+        let mut app = Self {
+            document: Document { scenario: scenario.clone() },
+            original: scenario,
+            state: UiState::default(),
+            answers,
+            compute,
+            revision: 0,
+            notice: None,
+            commands: Vec::new(),
+            #[cfg(target_arch = "wasm32")]
+            page: page::Page::new(context),
+        };
+        app.analyze();
+        app
+    }
+
+    /// The scenario on show.
+    pub fn scenario(&self) -> &Scenario {
+        &self.document.scenario
+    }
+
+    /// The last complete analysis.
+    pub fn analysis(&self) -> Option<OnShow<'_>> {
+        self.answers.complete().map(|(report, revision, current)| OnShow { report, revision, current })
+    }
+
+    /// The message on the screen about input that was refused.
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_deref()
+    }
+
+    /// [Re λ, Im λ] of the mode whose shape is on the canvas, in 1/s.
+    pub fn mode_on_show(&self) -> Option<[f64; 2]> {
+        self.answers.shape().map(|shape| shape.eigenvalue)
+    }
+
+    /// Sends the document to the engine.
+    fn analyze(&mut self) {
+        self.revision += 1;
+        self.answers.expect(self.revision);
+        let job = Job {
+            revision: self.revision,
+            scenario: self.document.scenario.to_json(),
+            max_speed: DEFAULT_MAX_SPEED,
+            mode: self.state.mode,
+        };
+        self.submit(&Request::Analyze(job));
+    }
+
+    fn submit(&mut self, request: &Request) {
+        if let Some(Err(reason)) = self.compute.as_mut().map(|compute| compute.submit(request)) {
+            self.answers.break_down(reason);
+        }
+    }
+
+    fn apply(&mut self, command: Command) {
+        match command {
+            Command::Edit(scenario) => self.edit(*scenario),
+            Command::Load(scenario) => {
+                self.original = (*scenario).clone();
+                self.edit(*scenario);
+            }
+            Command::ChooseMode(choice) => {
+                self.state.mode = choice;
+                self.submit(&Request::Shape(choice));
+            }
+            Command::DismissNotice => self.notice = None,
+        }
+    }
+
+    /// Takes a scenario over, where it is physical; else says why not and keeps the last good one.
+    fn edit(&mut self, scenario: Scenario) {
+        if let Err(faults) = scenario.to_robot() {
+            self.notice = Some(faults.to_string());
+            return;
+        }
+        self.notice = None;
+        if scenario != self.document.scenario {
+            self.document.scenario = scenario;
+            self.analyze();
+        }
+    }
+
+    fn take_replies(&mut self) {
+        let replies = self.compute.as_mut().map(Compute::poll).unwrap_or_default();
+        for reply in replies {
+            // A chosen mode is followed while the robot changes: the next one wanted is the nearest to this.
+            if let (Update::Shape(shape), Which::Near(_)) = (&reply.update, self.state.mode.which) {
+                self.state.mode.which = Which::Near(shape.eigenvalue);
+            }
+            self.answers.take(reply);
+        }
+    }
+
+    fn animate(&mut self, context: &egui::Context) {
+        if !self.state.playback.playing {
+            return;
+        }
+        if let Some(shape) = self.answers.shape() {
+            let seconds = f64::from(context.input(|input| input.stable_dt)).min(0.1);
+            let advance = canvas::phase_advance(shape, &self.state.playback, seconds);
+            self.state.playback.phase = (self.state.playback.phase + advance) % std::f64::consts::TAU;
+            context.request_repaint();
+        }
+    }
+
+    fn notice_bar(&mut self, ui: &mut Ui) {
+        let Some(notice) = &self.notice else { return };
+        Panel::bottom("notice").show(ui, |ui| {
+            ui.horizontal_wrapped(|ui| {
+                let colour = theme::warning(ui.visuals());
+                ui.colored_label(colour, "▲");
+                ui.label(notice);
+                if ui.small_button("Dismiss").clicked() {
+                    self.commands.push(Command::DismissNotice);
+                }
+            });
+        });
+    }
+
+    fn wide(&mut self, ui: &mut Ui) {
+        Panel::left("controls").default_size(380.0).min_size(340.0).show(ui, |ui| {
+            ScrollArea::vertical().show(ui, |ui| {
+                panels::controls::ui(ui, &self.document, &self.original, &mut self.commands);
+            });
+        });
+        Panel::right("answer").default_size(340.0).min_size(280.0).show(ui, |ui| {
+            ui.add_space(6.0);
+            panels::answer::ui(ui, &self.document, &self.answers);
+            ui.separator();
+            panels::plots::ui(&mut self.state, ui, &self.document, &self.answers, &mut self.commands);
+        });
+        CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
+    }
+
+    fn narrow(&mut self, ui: &mut Ui) {
+        let height = ui.available_height();
+        Panel::top("canvas").exact_size(0.4 * height).resizable(false).frame(egui::Frame::NONE).show(ui, |ui| {
+            self.canvas(ui);
+        });
+        CentralPanel::default().show(ui, |ui| {
+            ScrollArea::vertical().show(ui, |ui| {
+                panels::answer::ui(ui, &self.document, &self.answers);
+                ui.separator();
+                ui.horizontal(|ui| {
+                    ui.selectable_value(&mut self.state.page, Page::Controls, "Controls");
+                    ui.selectable_value(&mut self.state.page, Page::Plots, "Plots");
+                });
+                match self.state.page {
+                    Page::Controls => {
+                        panels::controls::ui(ui, &self.document, &self.original, &mut self.commands);
+                    }
+                    Page::Plots => {
+                        panels::plots::ui(&mut self.state, ui, &self.document, &self.answers, &mut self.commands);
+                    }
+                }
+            });
+        });
+    }
+
+    fn canvas(&mut self, ui: &mut Ui) {
+        canvas::ui(&mut self.state, ui, &self.document, &self.answers, &mut self.commands);
+    }
+}
+
+impl eframe::App for Tautline {
+    fn logic(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
+        #[cfg(target_arch = "wasm32")]
+        self.commands.extend(self.page.loaded().map(|scenario| Command::Load(Box::new(scenario))));
+        for command in std::mem::take(&mut self.commands) {
+            self.apply(command);
+        }
+        self.take_replies();
+        self.animate(context);
+        #[cfg(target_arch = "wasm32")]
+        self.page.publish(&self.document.scenario, &self.answers, frame.info().cpu_usage);
+        #[cfg(not(target_arch = "wasm32"))]
+        let _ = frame;
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.notice_bar(ui);
+        if ui.available_width() < NARROW {
+            self.narrow(ui);
+        } else {
+            self.wide(ui);
+        }
+        // Commands are carried out before the next frame; without one nothing would be seen of them.
+        if !self.commands.is_empty() {
+            ui.ctx().request_repaint();
+        }
+    }
+}

@@ -18,11 +18,9 @@ pub(super) fn run(args: &Args) -> Answer {
         };
         return Ok(PRESETS.iter().map(entry).collect());
     };
-    match presets::find(name) {
-        Some(preset) => Ok(preset.scenario().to_json() + "\n"),
-        None => {
-            let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-            Err(vec![format!("tautline: no built-in scenario is called {name:?}; there are {}", names.join(", "))])
-        }
-    }
+    let preset = presets::find(name).ok_or_else(|| {
+        let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+        vec![format!("tautline: no built-in scenario is called {name:?}; there are {}", names.join(", "))]
+    })?;
+    Ok(preset.scenario().to_json() + "\n")
 }

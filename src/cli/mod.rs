@@ -80,7 +80,9 @@ fn run_with(arguments: impl Iterator<Item = OsString>) -> Start {
     Start::Done(match answer {
         Ok(text) => print(&text),
         Err(faults) => {
-            faults.iter().for_each(|fault| complain(fault));
+            for fault in &faults {
+                complain(fault);
+            }
             ExitCode::from(BAD_INPUT)
         }
     })

@@ -110,7 +110,7 @@ fn reeling(length_rate: f64) -> &'static str {
 fn stability(text: &mut String, report: &Report) -> fmt::Result {
     let rightmost = report.eigenvalues.iter().max_by(|a, b| a[0].total_cmp(&b[0]));
     let Some(&[re, im]) = rightmost else { return Ok(()) };
-    let verdict = if re < 0.0 { "stable" } else { "unstable" };
+    let verdict = if report.stable == Some(true) { "stable" } else { "not stable" };
     let growth = digits(re, 4);
     writeln!(text, "\nAt {} m/s: {verdict}, largest growth rate {growth} 1/s", digits(report.speed, 6))?;
     let size = re.hypot(im);

@@ -10,10 +10,11 @@ use nalgebra::Complex;
 use web_time::Instant;
 
 use super::protocol::{
-    CriticalAnswer, Failed, Job, ModeChoice, ModeRow, ModeShape, PoseAnswer, Reply, Request, Revision, Update, Which,
+    CriticalAnswer, DrawnShape, Failed, Job, ModeChoice, ModeRow, ModeShape, PoseAnswer, Reply, Request, Revision,
+    Update, Which,
 };
 use crate::mechanics::CableShape;
-use crate::robot::Motion;
+use crate::robot::{Motion, Vec2};
 use crate::scenario::report::{failure_sentence, sentence};
 use crate::scenario::{Report, Scenario};
 use crate::stability::{self, CriticalSearch, NotConverged, Outcome, Polarisation, Spectrum};
@@ -116,7 +117,7 @@ impl Engine {
             Err(failed) => {
                 // Whatever is being searched for belongs to a pose that has been left.
                 self.running = None;
-                vec![Reply { revision: job.revision, update: Update::Failed(failed) }]
+                vec![Reply { revision: job.revision, update: Update::Failed(*failed) }]
             }
         }
     }
@@ -129,21 +130,23 @@ impl Stage {
 }
 
 impl Pose {
-    fn new(job: &Job, submitted: Instant) -> Result<Self, Failed> {
+    fn new(job: &Job, submitted: Instant) -> Result<Self, Box<Failed>> {
         let failed = |reason: String, speed: f64| Failed {
             report: Report { searched_up_to: job.max_speed, ..Report::failed(&reason, speed) },
             cable: None,
             shapes: Vec::new(),
         };
         let parsed = Scenario::from_json(&job.scenario).and_then(|scenario| scenario.to_robot());
-        let (robot, motion) = parsed.map_err(|faults| failed(faults.to_string(), 0.0))?;
-        let local = Local::new(&robot, &motion).map_err(|failure| Failed {
-            cable: Some(failure.reason.cable()),
-            shapes: failure.cables.iter().map(|shape| shape.as_ref().map(drawn)).collect(),
-            ..failed(failure_sentence(&failure), motion.speed())
+        let (robot, motion) = parsed.map_err(|faults| Box::new(failed(faults.to_string(), 0.0)))?;
+        let local = Local::new(&robot, &motion).map_err(|failure| {
+            Box::new(Failed {
+                cable: failure.reason.cable(),
+                shapes: failure.cables.iter().map(|shape| shape.as_ref().map(drawn)).collect(),
+                ..failed(failure_sentence(&failure), motion.speed())
+            })
         })?;
         let spectrum = local.problem.spectrum(motion.speed());
-        let spectrum = spectrum.map_err(|error| failed(sentence(&error.to_string()), motion.speed()))?;
+        let spectrum = spectrum.map_err(|error| Box::new(failed(sentence(&error.to_string()), motion.speed())))?;
         Ok(Self {
             revision: job.revision,
             local,
@@ -279,9 +282,10 @@ impl Pose {
 }
 
 fn axial_forces(shape: &CableShape) -> Vec<f64> {
-    shape.forces.iter().map(|force| force.norm()).collect()
+    shape.forces.iter().map(Vec2::norm).collect()
 }
 
-fn drawn(shape: &CableShape) -> (Vec<[f64; 2]>, Vec<f64>) {
-    (shape.nodes.iter().map(|node| [node.x, node.y]).collect(), axial_forces(shape))
+fn drawn(shape: &CableShape) -> DrawnShape {
+    let nodes = shape.nodes.iter().map(|node| [node.x, node.y]).collect();
+    DrawnShape { nodes, axial_forces: axial_forces(shape) }
 }

@@ -92,12 +92,21 @@ pub struct PoseAnswer {
 /// A pose without an answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Failed {
-    /// Why, as a sentence.
+    /// The complete analysis, with the reason as a sentence.
     pub report: Report,
     /// The cable to blame, 0-based.
     pub cable: Option<usize>,
-    /// Nodes of those cables that have a shape, in m, with the axial forces of their elements, in N.
-    pub shapes: Vec<Option<(Vec<[f64; 2]>, Vec<f64>)>>,
+    /// One entry per cable: its shape, where it has one. Empty where there is none at all.
+    pub shapes: Vec<Option<DrawnShape>>,
+}
+
+/// A cable's static shape as far as a picture needs it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct DrawnShape {
+    /// From the platform to the winch, in m.
+    pub nodes: Vec<[f64; 2]>,
+    /// Of the elements, in N.
+    pub axial_forces: Vec<f64>,
 }
 
 /// The end of the search for the critical speed.

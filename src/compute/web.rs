@@ -13,6 +13,8 @@ use super::protocol::{Reply, Request, Update};
 
 /// Where the page finds the worker's loader, beside itself.
 const WORKER: &str = "./worker_loader.js";
+/// The element whose attribute `data-wasm` names the page's build.
+const APP: &str = "tautline-app";
 /// What the worker says when it can take requests.
 const READY: &str = "ready";
 
@@ -21,8 +23,10 @@ pub struct Compute {
     worker: Worker,
     shared: Rc<RefCell<Shared>>,
     /// Kept alive for as long as the worker may call them.
-    _listeners: (Closure<dyn FnMut(MessageEvent)>, Closure<dyn FnMut(ErrorEvent)>),
+    _listeners: Listeners,
 }
+
+type Listeners = (Closure<dyn FnMut(MessageEvent)>, Closure<dyn FnMut(ErrorEvent)>);
 
 #[derive(Default)]
 struct Shared {
@@ -38,7 +42,8 @@ impl Compute {
     /// # Errors
     /// Where the browser refuses a worker.
     pub fn start(wake: impl Fn() + 'static) -> Result<Self, String> {
-        let worker = Worker::new(WORKER).map_err(|error| format!("the browser refuses a worker: {error:?}"))?;
+        let worker =
+            Worker::new(&worker_address()).map_err(|error| format!("the browser refuses a worker: {error:?}"))?;
         let shared = Rc::new(RefCell::new(Shared::default()));
         let wake = Rc::new(wake);
         let on_message = {
@@ -95,6 +100,14 @@ impl Drop for Compute {
     fn drop(&mut self) {
         self.worker.terminate();
     }
+}
+
+/// The loader's address with the page's build in it: a cached worker of an older build must not meet a newer page.
+fn worker_address() -> String {
+    let document = web_sys::window().and_then(|window| window.document());
+    let app = document.and_then(|document| document.get_element_by_id(APP));
+    let build = app.and_then(|app| app.get_attribute("data-wasm"));
+    build.map_or_else(|| WORKER.into(), |build| format!("{WORKER}?v={}", js_sys::encode_uri_component(&build)))
 }
 
 fn post(worker: &Worker, bytes: &[u8]) {

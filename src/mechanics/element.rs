@@ -5,7 +5,7 @@
 //! w₁ = −(k+1) l̇ for element k. Equal constant w₀ = w₁ is the travelling string. Every matrix here acts on x and y
 //! alike (⊗ I₂) but the elastic one.
 //!
-//! Source: docs/theory.md section 3, after Du, Cui, Bao and Qiu (2015).
+//! Source: docs/theory.md section 4, after Du, Cui, Bao and Qiu (2015).
 
 use nalgebra::Matrix2;
 

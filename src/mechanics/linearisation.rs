@@ -3,7 +3,7 @@
 //!
 //! C is the energy-transfer matrix and D the flow stiffness (`K_dyn`), both for unit speed: inflow rates grow with v,
 //! their rates with v². K is the elastic part alone. Winch nodes do not move. The matrices are never formed here:
-//! the problem is kept as chains of elements that meet in the platform. docs/theory.md section 6.
+//! the problem is kept as chains of elements that meet in the platform. docs/theory.md section 7.
 
 use nalgebra::Matrix2;
 

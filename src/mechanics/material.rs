@@ -9,7 +9,7 @@ use crate::robot::{Robot, Strain};
 /// - [`Strain::Green`], energy ½ EA ε² with ε = ½(λ² − 1): N = ½ EA (λ³ − λ)
 /// - [`Strain::Engineering`], ε = λ − 1: N = EA (λ − 1)
 ///
-/// Source: docs/theory.md section 3; Green's law is that of the paper.
+/// Source: docs/theory.md section 4; Green's law is that of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// EA in newtons, positive.

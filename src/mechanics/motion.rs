@@ -2,7 +2,7 @@
 //!
 //! p(σ) = p₀ + σ d. The statics F(z, σ) = 0 define z(σ), so J z' = −∂F/∂σ, and J z'' = −(the second derivative of
 //! F along z₀ + z' σ). Both right sides come from one evaluation of F in second-order dual numbers each, the tension
-//! law and the coupling of the cables through the platform included. docs/theory.md section 5.
+//! law and the coupling of the cables through the platform included. docs/theory.md section 6.
 
 use nalgebra::{Const, SVector, ToTypenum};
 use num_dual::{Dual2_64, DualSVec64, jacobian};

@@ -8,7 +8,7 @@
 //! Several shapes may satisfy the equations. The one wanted is the *taut* one: it grows out of the straight,
 //! weightless cables as the cables' weight is turned on. Newton's method tries full weight at once; the sign of
 //! the Jacobian's determinant, which changes only where the taut shape meets a slack one, tells whether it found
-//! the right one. If not, the weight is turned on in steps. docs/theory.md section 4 has the argument.
+//! the right one. If not, the weight is turned on in steps. docs/theory.md section 5 has the argument.
 
 use nalgebra::{Const, OMatrix, SVector, ToTypenum};
 use num_dual::{DualNum, DualSVec64, jacobian};
@@ -110,12 +110,16 @@ pub enum StaticsError {
         /// The cable, 0-based.
         cable: usize,
     },
+    /// The shapes were found, but their motion or their vibration leaves the range of floating point.
+    #[error("the motion or the vibration of this robot cannot be computed in floating point")]
+    OutOfRange,
 }
 
 impl StaticsError {
-    /// The cable to blame, 0-based.
-    pub fn cable(&self) -> usize {
-        match *self {
+    /// The cable to blame, 0-based, where it is one.
+    pub fn cable(&self) -> Option<usize> {
+        Some(match *self {
+            Self::OutOfRange => return None,
             Self::NotConverged { cable } => cable,
             Self::Infeasible(reason) => match reason {
                 Infeasible::AtAnchor { cable }
@@ -125,7 +129,7 @@ impl StaticsError {
                 | Infeasible::GoesSlack { cable } => cable,
                 Infeasible::OneLine { cables } => cables[0],
             },
-        }
+        })
     }
 }
 

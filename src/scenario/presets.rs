@@ -17,7 +17,7 @@ pub struct Preset {
 }
 
 /// All built-in scenarios, the one to start with first.
-pub const PRESETS: &[Preset] = &[
+pub static PRESETS: &[Preset] = &[
     Preset {
         name: "paper",
         title: "Paper robot",

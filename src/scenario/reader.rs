@@ -172,8 +172,10 @@ impl<'a> Value<'a> {
     /// A list of `N` finite numbers.
     pub(super) fn vector<const N: usize>(&self) -> [f64; N] {
         self.note_number();
-        let items = self.list(&format!("a list of {N} numbers"));
-        let numbers: Option<[Value; N]> = items.try_into().ok();
+        let numbers: Option<[Value; N]> = self.items().and_then(|items| items.try_into().ok());
+        if numbers.is_none() {
+            self.fault(&format!("a list of {N} numbers"));
+        }
         numbers.map_or([0.0; N], |numbers| numbers.map(|number| number.number()))
     }
 
@@ -197,16 +199,19 @@ impl<'a> Value<'a> {
 
     /// A list; messages call it `allowed`.
     pub(super) fn list(&self, allowed: &str) -> Vec<Value<'a>> {
-        let Some(items) = self.parse::<Vec<&'a RawValue>>() else {
+        self.items().unwrap_or_else(|| {
             self.fault(allowed);
-            return Vec::new();
-        };
+            Vec::new()
+        })
+    }
+
+    fn items(&self) -> Option<Vec<Value<'a>>> {
         let item = |(i, raw): (usize, &'a RawValue)| Value {
             document: self.document,
             path: format!("{}[{i}]", self.path),
             content: Content::Json(raw.get()),
         };
-        items.into_iter().enumerate().map(item).collect()
+        Some(self.parse::<Vec<&'a RawValue>>()?.into_iter().enumerate().map(item).collect())
     }
 
     /// The names in this object; none where it is something else.

@@ -174,7 +174,7 @@ impl Report {
 pub fn failure_sentence(failure: &Failure) -> String {
     match failure.reason {
         StaticsError::Infeasible(reason) => sentence(&format!("no static equilibrium here: {reason}")),
-        StaticsError::NotConverged { .. } => sentence(&failure.reason.to_string()),
+        StaticsError::NotConverged { .. } | StaticsError::OutOfRange => sentence(&failure.reason.to_string()),
     }
 }
 

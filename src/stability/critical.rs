@@ -2,7 +2,7 @@
 //!
 //! The growth rate against speed is not monotone, so the *first* crossing is wanted: the speed is raised in steps to
 //! the first unstable one, as in the paper, and the crossing before it is then refined. A crossing and its return
-//! within one step are not seen; docs/theory.md section 6 says so.
+//! within one step are not seen; docs/theory.md section 8 says so.
 
 use std::f64::consts::TAU;
 
@@ -74,7 +74,7 @@ pub enum Outcome {
 #[derive(Debug)]
 pub struct CriticalSearch {
     limit: f64,
-    steps: u32,
+    steps: u64,
     samples: Vec<Sample>,
 }
 
@@ -112,7 +112,7 @@ impl CriticalSearch {
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
     pub fn advance(&mut self, vibration: &Vibration, problem: &Eigenproblem) -> Result<Option<Outcome>, NotConverged> {
-        let speed = (f64::from(self.steps) * SCAN_STEP).min(self.limit);
+        let speed = (self.steps as f64 * SCAN_STEP).min(self.limit);
         let growth_rate = problem.spectrum(speed)?.growth_rate();
         self.steps += 1;
         self.samples.push(Sample { speed, growth_rate });
@@ -120,21 +120,31 @@ impl CriticalSearch {
         if speed == 0.0 {
             return Ok(None);
         }
-        let undamped = problem.damping().alpha == 0.0 && problem.damping().beta == 0.0;
-        if growth_rate > if undamped { ROUNDING * problem.scale() } else { 0.0 } {
+        let threshold = threshold(problem);
+        if growth_rate > threshold {
             let before = self.samples[self.samples.len() - 2].speed;
-            let critical = if undamped && before == 0.0 { 0.0 } else { refine(problem, before, speed)? };
+            // Without damping, what grows at the first step has grown from rest on.
+            let from_rest = threshold > 0.0 && before == 0.0;
+            let critical = if from_rest { 0.0 } else { refine(problem, before, speed)? };
             return describe(vibration, problem, critical).map(|c| Some(Outcome::Found(c)));
         }
         Ok((speed >= self.limit).then_some(Outcome::NoneUpTo(self.limit)))
     }
 }
 
+/// What a growth rate must exceed to count as positive: zero; without damping, rounding.
+fn threshold(problem: &Eigenproblem) -> f64 {
+    let undamped = problem.damping().alpha == 0.0 && problem.damping().beta == 0.0;
+    if undamped { ROUNDING * problem.scale() } else { 0.0 }
+}
+
 /// The crossing between a stable and an unstable speed, by bisection.
 fn refine(problem: &Eigenproblem, mut stable: f64, mut unstable: f64) -> Result<f64, NotConverged> {
-    while unstable - stable > REFINED_TO {
+    let threshold = threshold(problem);
+    // Far from zero two neighbouring numbers may be further apart than that.
+    while unstable - stable > REFINED_TO.max(4.0 * f64::EPSILON * unstable) {
         let middle = 0.5 * (stable + unstable);
-        if problem.spectrum(middle)?.growth_rate() > 0.0 {
+        if problem.spectrum(middle)?.growth_rate() > threshold {
             unstable = middle;
         } else {
             stable = middle;

@@ -117,12 +117,22 @@ impl Eigenproblem {
         companion.view_mut((0, n), (n, n)).fill_with_identity();
         companion.view_mut((n, 0), (n, n)).copy_from(&-stiffness);
         companion.view_mut((n, n), (n, n)).copy_from(&-damping);
-        // The Schur iteration does not end on numbers that are not finite.
         if !companion.iter().all(|entry| entry.is_finite()) {
             return Err(NotConverged);
         }
-        let schur = Schur::try_new(companion, f64::EPSILON, ITERATIONS_PER_EIGENVALUE * 2 * n).ok_or(NotConverged)?;
-        let eigenvalues: Vec<Complex<f64>> = schur.complex_eigenvalues().iter().map(|s| s * self.scale).collect();
-        Spectrum::new(speed, eigenvalues, self.multiplicity)
+        let eigenvalues = eigenvalues(&companion).ok_or(NotConverged)?;
+        Spectrum::new(speed, eigenvalues.iter().map(|s| s * self.scale).collect(), self.multiplicity)
     }
+}
+
+/// The eigenvalues of a matrix with entries of order one.
+fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
+    let size = matrix.nrows();
+    // The iteration may stall on the diagonal's zeros, since it measures what it neglects against the diagonal. With
+    // the diagonal moved to one it measures against the norm, as backward stability asks for.
+    [0.0, 1.0].into_iter().find_map(|shift| {
+        let shifted = matrix + DMatrix::from_diagonal_element(size, size, shift);
+        let schur = Schur::try_new(shifted, f64::EPSILON, ITERATIONS_PER_EIGENVALUE * size)?;
+        Some(schur.complex_eigenvalues().iter().map(|s| s - shift).collect())
+    })
 }

@@ -2,7 +2,7 @@
 //!
 //! Q(λ) = λ² M + λ (v C + αM + βK) + K + v² D is block tridiagonal along each cable, and the cables meet only in the
 //! platform's block. Eliminating from the winches to the platform and substituting back costs O(n) per solve.
-//! docs/theory.md section 7.
+//! docs/theory.md section 11.
 
 use nalgebra::{Complex, Matrix2, Vector2};
 
@@ -191,7 +191,7 @@ impl<'a> Factors<'a> {
 /// The inverse, of a matrix nudged off singularity where it is singular to rounding.
 fn invert(matrix: Matrix2<C64>) -> Matrix2<C64> {
     matrix.try_inverse().unwrap_or_else(|| {
-        let nudge = matrix.map(|c| c.norm()).amax().max(f64::MIN_POSITIVE) * f64::EPSILON;
+        let nudge = matrix.map(C64::norm).amax().max(f64::MIN_POSITIVE) * f64::EPSILON;
         (matrix + Matrix2::identity() * C64::from(nudge)).try_inverse().unwrap_or_else(Matrix2::identity)
     })
 }
@@ -204,7 +204,7 @@ impl Shape {
     /// Makes the largest component 1.
     fn normalise(&mut self) {
         let largest = self.values().max_by(|a, b| a.norm().total_cmp(&b.norm()));
-        let factor = largest.map_or(C64::from(1.0), |c| c.inv());
+        let factor = largest.map_or(C64::from(1.0), C64::inv);
         self.hub *= factor;
         self.inner.iter_mut().flatten().for_each(|d| *d *= factor);
     }
@@ -242,13 +242,13 @@ impl Shape {
             hub += self.hub * ((lambda * lambda + lambda * vibration.damping.alpha) * mass);
         }
         let (mut largest, mut size) = (0.0_f64, 0.0_f64);
-        let norm = |d: Displacement| d.map(|c| c.norm()).amax();
+        let norm = |d: Displacement| d.map(C64::norm).amax();
         for (chain, nodes) in vibration.chains.iter().zip(self.per_cable()) {
             let mut force = vec![Displacement::zeros(); nodes.len()];
             for (k, element) in chain.elements.iter().enumerate() {
                 for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let q = block(vibration, element, speed, lambda, i, j);
-                    size = size.max(q.map(|c| c.norm()).amax());
+                    size = size.max(q.map(C64::norm).amax());
                     force[k + i] += q * nodes[k + j];
                 }
             }

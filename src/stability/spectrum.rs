@@ -6,6 +6,9 @@ use nalgebra::Complex;
 
 use crate::stability::NotConverged;
 
+/// Real parts below this part of the largest |λ| are zero to rounding.
+const ROUNDING: f64 = 1e-13;
+
 /// All eigenvalues of the problem at one speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
@@ -79,8 +82,9 @@ impl Spectrum {
         self.rightmost().re
     }
 
-    /// Whether every Re λ < 0.
+    /// Whether every Re λ < 0, by more than the rounding of a robot without damping.
     pub fn is_stable(&self) -> bool {
-        self.growth_rate() < 0.0
+        let largest = self.distinct.iter().map(|l| l.norm()).fold(0.0, f64::max);
+        self.growth_rate() < -ROUNDING * largest
     }
 }

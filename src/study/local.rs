@@ -25,7 +25,7 @@ impl Local {
     pub fn new(robot: &Robot, motion: &Motion) -> Result<Self, Failure> {
         let statics = mechanics::solve(robot, motion.position())?;
         let failed = |statics: Statics| Failure {
-            reason: StaticsError::NotConverged { cable: 0 },
+            reason: StaticsError::OutOfRange,
             cables: statics.cables.into_iter().map(Some).collect(),
         };
         let Some(rates) = mechanics::length_rates(robot, &statics, motion.direction()) else {

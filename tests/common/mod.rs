@@ -35,11 +35,10 @@ pub fn same_multiset(actual: &[Complex<f64>], expected: &[Complex<f64>], toleran
     assert_eq!(actual.len(), expected.len(), "{what}: the numbers of values differ");
     let near = |i: usize, j: usize| (actual[i] - expected[j]).norm() <= tolerance;
     let mut partner = vec![None; actual.len()];
-    for j in 0..expected.len() {
+    for (j, value) in expected.iter().enumerate() {
         let mut tried = vec![false; actual.len()];
         let placed = place(j, &near, &mut partner, &mut tried);
-        let nearest = actual.iter().map(|a| (a - expected[j]).norm()).fold(f64::INFINITY, f64::min);
-        let value = expected[j];
+        let nearest = actual.iter().map(|a| (a - value).norm()).fold(f64::INFINITY, f64::min);
         assert!(placed, "{what}: nothing left for the expected {value} (nearest {nearest:e}, allowed {tolerance:e})");
     }
 }
@@ -63,7 +62,7 @@ pub fn reference_files(prefix: &str) -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/reference");
     let entries = std::fs::read_dir(folder).expect("the folder of reference files");
     let mut files: Vec<PathBuf> = entries.map(|entry| entry.expect("a folder entry").path()).collect();
-    files.retain(|file| name(file).starts_with(prefix) && name(file).ends_with(".json"));
+    files.retain(|file| name(file).starts_with(prefix) && file.extension().is_some_and(|end| end == "json"));
     files.sort();
     files
 }

@@ -1,0 +1,138 @@
+//! What the engine has answered so far, and how much of it is about the document as it is now.
+
+use crate::compute::protocol::{CriticalAnswer, Failed, ModeShape, PoseAnswer, Reply, Revision, Update};
+use crate::scenario::Report;
+
+/// The newest answers of each kind, each with the revision that it answers.
+#[derive(Debug, Default)]
+pub struct Answers {
+    /// The document's revision: answers to it are current.
+    revision: Revision,
+    pose: Option<(Revision, PoseAnswer)>,
+    failed: Option<(Revision, Failed)>,
+    critical: Option<(Revision, CriticalAnswer)>,
+    shape: Option<(Revision, ModeShape)>,
+    complete: Option<(Revision, Report)>,
+    searching: Option<f64>,
+    broken: Option<String>,
+}
+
+/// The critical speed on show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CriticalState<'a> {
+    /// It belongs to the document as it is.
+    Current(&'a CriticalAnswer),
+    /// It is being computed; the last one, if any, belongs to an earlier state. The search has come to this speed.
+    Recomputing {
+        /// The last answer.
+        last: Option<&'a CriticalAnswer>,
+        /// In m/s, where the search has begun.
+        searched_up_to: Option<f64>,
+    },
+    /// The pose has no answer.
+    Failed(&'a Failed),
+    /// The engine does not work.
+    Broken(&'a str),
+}
+
+impl Answers {
+    /// Notes that the document has changed.
+    pub fn expect(&mut self, revision: Revision) {
+        self.revision = revision;
+        self.searching = None;
+    }
+
+    /// Takes in a reply.
+    pub fn take(&mut self, Reply { revision, update }: Reply) {
+        match update {
+            Update::Pose(pose) => {
+                self.failed = None;
+                self.pose = Some((revision, *pose));
+            }
+            Update::Failed(failed) => {
+                self.complete = Some((revision, failed.report.clone()));
+                self.failed = Some((revision, failed));
+            }
+            Update::Searching(speed) => self.searching = (revision == self.revision).then_some(speed),
+            Update::Critical(answer) => self.take_critical(revision, answer),
+            Update::Curve(points) => {
+                if let Some((_, answer)) = self.critical.as_mut().filter(|(known, _)| *known == revision) {
+                    answer.curve.extend(points);
+                }
+            }
+            Update::Shape(shape) => self.shape = Some((revision, *shape)),
+            Update::Broken(reason) => self.broken = Some(reason),
+        }
+    }
+
+    fn take_critical(&mut self, revision: Revision, answer: CriticalAnswer) {
+        // The pose may be newer: a search that was under way was allowed to finish.
+        if let Some((_, pose)) = self.pose.as_ref().filter(|(known, _)| *known == revision) {
+            let report = Report {
+                critical: answer.critical.clone(),
+                searched_up_to: answer.searched_up_to,
+                ..pose.report.clone()
+            };
+            self.complete = Some((revision, report));
+        }
+        self.critical = Some((revision, answer));
+    }
+
+    /// Marks the engine as not working.
+    pub fn break_down(&mut self, reason: String) {
+        self.broken = Some(reason);
+    }
+
+    /// The newest pose, unless a newer one failed.
+    pub fn pose(&self) -> Option<&PoseAnswer> {
+        self.failed.is_none().then_some(self.pose.as_ref()).flatten().map(|(_, pose)| pose)
+    }
+
+    /// Whether [`Self::pose`] belongs to the document as it is.
+    pub fn pose_is_current(&self) -> bool {
+        self.pose.as_ref().is_some_and(|(revision, _)| *revision == self.revision)
+    }
+
+    /// Why the newest pose has no answer, where it has none.
+    pub fn failed(&self) -> Option<&Failed> {
+        self.failed.as_ref().map(|(_, failed)| failed)
+    }
+
+    /// The newest mode shape, where the pose can be drawn.
+    pub fn shape(&self) -> Option<&ModeShape> {
+        self.pose().and(self.shape.as_ref()).map(|(_, shape)| shape)
+    }
+
+    /// The critical speed on show.
+    pub fn critical(&self) -> CriticalState<'_> {
+        if let Some(reason) = &self.broken {
+            return CriticalState::Broken(reason);
+        }
+        if let Some((revision, failed)) = &self.failed
+            && *revision == self.revision
+        {
+            return CriticalState::Failed(failed);
+        }
+        match &self.critical {
+            Some((revision, answer)) if *revision == self.revision => CriticalState::Current(answer),
+            last => CriticalState::Recomputing {
+                last: last.as_ref().map(|(_, answer)| answer),
+                searched_up_to: self.searching,
+            },
+        }
+    }
+
+    /// The last critical speed, current or not.
+    pub fn last_critical(&self) -> Option<&CriticalAnswer> {
+        match self.critical() {
+            CriticalState::Current(answer) => Some(answer),
+            CriticalState::Recomputing { last, .. } => last,
+            CriticalState::Failed(_) | CriticalState::Broken(_) => None,
+        }
+    }
+
+    /// The last complete analysis, its revision, and whether it belongs to the document as it is.
+    pub fn complete(&self) -> Option<(&Report, Revision, bool)> {
+        self.complete.as_ref().map(|(revision, report)| (report, *revision, *revision == self.revision))
+    }
+}

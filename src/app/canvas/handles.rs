@@ -1,0 +1,153 @@
+//! What can be grabbed on the canvas: the platform, the arrow's tip, the background. All of it by keyboard, too.
+
+use eframe::egui::emath::smart_aim::best_in_range_f64;
+use eframe::egui::{
+    CursorIcon, EventFilter, Key, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
+};
+
+use super::paint::{ARROW_GAP, arrow_tip};
+use super::{Scene, View};
+use crate::app::state::{Camera, Command, Document};
+use crate::app::theme;
+
+/// Size of what can be grabbed, in points; a finger needs this much.
+const GRAB: f32 = 40.0;
+/// A key press moves by this part of the robot's width; with Shift by a tenth of it.
+const KEY_STEP: f64 = 1.0 / 200.0;
+/// Speeds change by this much per key press, in m/s; with Shift by a tenth of it.
+const SPEED_STEP: f64 = 0.5;
+/// Directions turn by this much per key press, in radians; with Shift by a tenth of it.
+const TURN_STEP: f64 = 0.1;
+
+/// The platform and the arrow's tip.
+pub fn ui(
+    ui: &mut Ui,
+    painter: &Painter,
+    view: &View,
+    scene: &Scene,
+    document: &Document,
+    commands: &mut Vec<Command>,
+) {
+    let platform = handle(ui, painter, "Platform", view.pos_in_ui(scene.platform), CursorIcon::Grab);
+    let mut scenario = document.scenario.clone();
+    let motion = &mut scenario.motion;
+    if let Some(grabbed) = drag(ui, &platform, view.pos_in_ui(scene.platform)) {
+        motion.position = view.pos_in_world(grabbed).map(|coordinate| roundest(coordinate, 1.0 / view.scale));
+    }
+    if let Some(([x, y], fine)) = keys(ui, &platform) {
+        let step = KEY_STEP * (scene.frame[2] - scene.frame[0]) * fine;
+        motion.position = [motion.position[0] + x * step, motion.position[1] + y * step];
+    }
+    let [x, y] = motion.position;
+    if !platform.dragged() {
+        let text = format!("Platform at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it, with Shift finely.");
+        platform.on_hover_text(text);
+    }
+
+    let tip = handle(ui, painter, "Velocity", arrow_tip(view, scene), CursorIcon::Grab);
+    if let Some(grabbed) = drag(ui, &tip, arrow_tip(view, scene)) {
+        let from_platform = grabbed - view.pos_in_ui(scene.platform);
+        let beyond = view.vec_in_world(Vec2::new((from_platform.length() - ARROW_GAP).max(0.0), 0.0))[0];
+        motion.speed = roundest(beyond / scene.arrow_scale, 1.0 / (view.scale * scene.arrow_scale)).max(0.0);
+        if from_platform.length() > 1.0 {
+            let [x, y] = view.vec_in_world(from_platform);
+            motion.direction = [x / x.hypot(y), y / x.hypot(y)];
+        }
+    }
+    if let Some(([turn, faster], fine)) = keys(ui, &tip) {
+        motion.speed = (motion.speed + faster * SPEED_STEP * fine).max(0.0);
+        let (sine, cosine) = (-turn * TURN_STEP * fine).sin_cos();
+        let [x, y] = motion.direction;
+        motion.direction = [cosine * x - sine * y, sine * x + cosine * y];
+    }
+    if !tip.dragged() {
+        let speed = motion.speed;
+        tip.on_hover_text(format!(
+            "Velocity {speed:.2} m/s. Drag it for direction and speed; keys: ← → turn, ↑ ↓ speed, with Shift finely."
+        ));
+    }
+    if scenario.motion != document.scenario.motion {
+        commands.push(Command::Edit(Box::new(scenario)));
+    }
+}
+
+/// A thing to grab at `centre`, with a ring when it has the keyboard's focus.
+fn handle(ui: &Ui, painter: &Painter, name: &'static str, centre: Pos2, cursor: CursorIcon) -> Response {
+    let rect = Rect::from_center_size(centre, Vec2::splat(GRAB));
+    let response = ui.interact(rect, ui.scope_id().with(name), Sense::click_and_drag()).on_hover_cursor(cursor);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+    }
+    if response.has_focus() || response.hovered() {
+        painter.circle_stroke(centre, 0.5 * GRAB, Stroke::new(1.5, theme::accent(ui.visuals())));
+    }
+    response
+}
+
+/// Where a dragged handle's centre is to go: it keeps the distance to the pointer that it had when it was grabbed.
+fn drag(ui: &Ui, response: &Response, centre: Pos2) -> Option<Pos2> {
+    let offset = response.id.with("offset");
+    let pointer = response.interact_pointer_pos()?;
+    if response.drag_started() {
+        let pressed = ui.input(|input| input.pointer.press_origin()).unwrap_or(pointer);
+        ui.data_mut(|data| data.insert_temp(offset, centre - pressed));
+    }
+    if !response.dragged() {
+        return None;
+    }
+    let kept: Vec2 = ui.data(|data| data.get_temp(offset)).unwrap_or_default();
+    Some(pointer + kept)
+}
+
+/// The roundest number within half a point of the screen: a hand cannot mean it more exactly.
+fn roundest(value: f64, point: f64) -> f64 {
+    best_in_range_f64(value - 0.5 * point, value + 0.5 * point)
+}
+
+/// Arrow keys pressed while `response` has the focus: right minus left, up minus down, and 0.1 with Shift.
+fn keys(ui: &Ui, response: &Response) -> Option<([f64; 2], f64)> {
+    if !response.has_focus() {
+        return None;
+    }
+    let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    ui.input(|input| {
+        // Held keys repeat; each repetition is a press. The count is small.
+        #[expect(clippy::cast_precision_loss)]
+        let pressed = |key: Key| input.num_presses(key) as f64;
+        let x = pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
+        let y = pressed(Key::ArrowUp) - pressed(Key::ArrowDown);
+        let fine = if input.modifiers.shift { 0.1 } else { 1.0 };
+        (x != 0.0 || y != 0.0).then_some(([x, y], fine))
+    })
+}
+
+/// Zoom with the wheel or two fingers, pan by dragging the background, double-click to see the whole robot.
+pub fn camera(ui: &Ui, background: &Response, view: &View, camera: &mut Camera) {
+    if background.double_clicked() {
+        *camera = Camera::default();
+        return;
+    }
+    if background.dragged() {
+        // A drag is recognised some points after it began; those count as well.
+        let begun = background.total_drag_delta().filter(|_| background.drag_started());
+        let [x, y] = view.vec_in_world(begun.unwrap_or_else(|| background.drag_delta()));
+        camera.offset = [camera.offset[0] - x, camera.offset[1] - y];
+    }
+    let pointer = ui.input(|input| input.pointer.hover_pos().or(input.pointer.interact_pos()));
+    let Some(pointer) = pointer.filter(|_| background.contains_pointer()) else { return };
+    let factor = ui.input(|input| {
+        let wheel = (f64::from(input.smooth_scroll_delta().y) / 300.0).exp();
+        f64::from(input.zoom_delta()) * wheel
+    });
+    if (factor - 1.0).abs() < 1e-9 {
+        return;
+    }
+    let zoom = (camera.zoom * factor).clamp(0.2, 200.0);
+    // The point under the pointer stays there.
+    let keep = 1.0 - camera.zoom / zoom;
+    let [x, y] = view.vec_in_world(pointer - view.rect.center());
+    camera.offset = [camera.offset[0] + x * keep, camera.offset[1] + y * keep];
+    camera.zoom = zoom;
+}

@@ -1,0 +1,166 @@
+//! Puts a scene on the screen.
+
+use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
+
+use super::{Scene, View};
+use crate::app::theme;
+
+/// Points between the platform's middle and the arrow's start; also what the arrow's handle is away at rest.
+pub const ARROW_GAP: f32 = 26.0;
+
+/// Draws everything but the handles.
+pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
+    painter.rect_filled(view.rect, 0.0, visuals.extreme_bg_color);
+    grid(painter, visuals, view, scene);
+    for cable in &scene.cables {
+        if cable.nodes.is_empty() {
+            // No shape: the straight line, dashed, so that it reads as missing.
+            let line = [view.pos_in_ui(scene.platform), view.pos_in_ui(cable.anchor)];
+            painter.extend(Shape::dashed_line(&line, Stroke::new(1.5, visuals.weak_text_color()), 6.0, 6.0));
+        }
+        if cable.marked {
+            let colour = theme::warning(visuals).gamma_multiply(0.30);
+            polyline(painter, view, &cable.nodes, Stroke::new(11.0, colour));
+        }
+        polyline(painter, view, &cable.vibrating, Stroke::new(1.6, theme::accent(visuals)));
+    }
+    // Over the vibration, so that the tension stays to be seen where a mode moves little.
+    for cable in &scene.cables {
+        for (ends, &force) in cable.nodes.windows(2).zip(&cable.forces) {
+            let colour = theme::sequential(part(force, scene.tensions), visuals);
+            let ends = [view.pos_in_ui(ends[0]), view.pos_in_ui(ends[1])];
+            painter.line_segment(ends, Stroke::new(3.0, colour));
+        }
+    }
+    for (i, cable) in scene.cables.iter().enumerate() {
+        winch(painter, visuals, view, scene, i, cable.prescribed);
+    }
+    arrow(painter, visuals, view, scene);
+    let platform = view.pos_in_ui(scene.platform);
+    painter.circle(platform, 11.0, theme::accent(visuals), Stroke::new(2.0, visuals.extreme_bg_color));
+}
+
+fn polyline(painter: &Painter, view: &View, nodes: &[[f64; 2]], stroke: Stroke) {
+    if nodes.len() > 1 {
+        painter.add(Shape::line(nodes.iter().map(|&node| view.pos_in_ui(node)).collect(), stroke));
+    }
+}
+
+/// Where a force lies in the range of all.
+fn part(force: f64, tensions: Option<[f64; 2]>) -> f64 {
+    match tensions {
+        Some([low, high]) if high - low > 1e-9 * high => (force - low) / (high - low),
+        _ => 0.5,
+    }
+}
+
+/// The workspace's frame, its grid lines and their metres.
+fn grid(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
+    let [left, bottom, right, top] = scene.frame;
+    let frame = Rect::from_two_pos(view.pos_in_ui([left, bottom]), view.pos_in_ui([right, top]));
+    let faint = Stroke::new(0.5, visuals.weak_text_color().gamma_multiply(0.35));
+    let step = grid_step(80.0 / view.scale);
+    let text = visuals.weak_text_color();
+    let font = FontId::proportional(11.0);
+    for (low, high, vertical) in [(left, right, true), (bottom, top, false)] {
+        #[expect(clippy::cast_possible_truncation)] // A few dozen lines: the step follows the range and the zoom.
+        let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
+        for line in (first..=last).take(200) {
+            let at = line as f64 * step;
+            let label = trimmed(at);
+            if vertical {
+                let x = view.pos_in_ui([at, 0.0]).x;
+                painter.vline(x, frame.y_range(), faint);
+                painter.text(Pos2::new(x, frame.max.y + 20.0), Align2::CENTER_TOP, label, font.clone(), text);
+            } else {
+                let y = view.pos_in_ui([0.0, at]).y;
+                painter.hline(frame.x_range(), y, faint);
+                painter.text(Pos2::new(frame.min.x - 18.0, y), Align2::RIGHT_CENTER, label, font.clone(), text);
+            }
+        }
+    }
+    painter.text(frame.max + Vec2::new(22.0, 20.0), Align2::LEFT_TOP, "m", font, text);
+    let stroke = Stroke::new(1.0, visuals.weak_text_color().gamma_multiply(0.7));
+    painter.rect_stroke(frame, 0.0, stroke, StrokeKind::Middle);
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is at least `least`.
+fn grid_step(least: f64) -> f64 {
+    let decade = 10.0_f64.powf(least.log10().floor());
+    [1.0, 2.0, 5.0].into_iter().map(|digit| digit * decade).find(|&step| step >= least).unwrap_or(10.0 * decade)
+}
+
+/// A coordinate without useless zeros.
+fn trimmed(value: f64) -> String {
+    let text = format!("{value:.3}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "-0" { "0".into() } else { text.into() }
+}
+
+/// A winch with its cable's number: a filled square where the tension is prescribed, an open one at equilibrium.
+fn winch(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, i: usize, prescribed: bool) {
+    let at = view.pos_in_ui(scene.cables[i].anchor);
+    let square = Rect::from_center_size(at, Vec2::splat(12.0));
+    let colour = visuals.text_color();
+    let fill = if prescribed { colour } else { visuals.extreme_bg_color };
+    painter.rect(square, 2.0, fill, Stroke::new(2.0, colour), StrokeKind::Middle);
+    let [left, bottom, right, top] = scene.frame;
+    let outward = scene.cables[i].anchor;
+    let side = |value: f64, middle: f64| if value < middle { -1.0 } else { 1.0 };
+    let away = Vec2::new(side(outward[0], 0.5 * (left + right)), -side(outward[1], 0.5 * (bottom + top)));
+    let number = at + away * Vec2::new(16.0, 14.0);
+    painter.text(number, Align2::CENTER_CENTER, (i + 1).to_string(), FontId::proportional(14.0), colour);
+}
+
+/// The arrow's tip on the screen.
+pub fn arrow_tip(view: &View, scene: &Scene) -> Pos2 {
+    #[expect(clippy::cast_possible_truncation)] // Screen coordinates are f32.
+    let length = (scene.speed * scene.arrow_scale * view.scale) as f32;
+    view.pos_in_ui(scene.platform) + View::direction_in_ui(scene.direction) * (ARROW_GAP + length)
+}
+
+fn arrow(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
+    let direction = View::direction_in_ui(scene.direction);
+    let start = view.pos_in_ui(scene.platform) + direction * 14.0;
+    let tip = arrow_tip(view, scene);
+    let colour = theme::accent(visuals);
+    let across = direction.rot90();
+    painter.line_segment([start, tip - direction * 8.0], Stroke::new(3.0, colour));
+    let head = vec![tip, tip - direction * 12.0 + across * 6.0, tip - direction * 12.0 - across * 6.0];
+    painter.add(Shape::convex_polygon(head, colour, Stroke::NONE));
+}
+
+/// The colour bar of the tensions, in the canvas's upper left corner.
+pub fn legend(painter: &Painter, visuals: &Visuals, rect: Rect, scene: &Scene) {
+    let Some([low, high]) = scene.tensions else { return };
+    let bar = Rect::from_min_size(rect.min + Vec2::new(12.0, 26.0), Vec2::new(130.0, 8.0));
+    let font = FontId::proportional(12.0);
+    let text = visuals.text_color();
+    painter.text(bar.min - Vec2::new(0.0, 3.0), Align2::LEFT_BOTTOM, "Cable tension", font.clone(), text);
+    let steps = 32_u8;
+    let step = bar.width() / f32::from(steps);
+    for i in 0..steps {
+        let colour: Color32 = theme::sequential(f64::from(i) / f64::from(steps - 1), visuals);
+        let min = bar.min + Vec2::new(f32::from(i) * step, 0.0);
+        painter.rect_filled(Rect::from_min_size(min, Vec2::new(step + 0.5, bar.height())), 0.0, colour);
+    }
+    painter.text(bar.left_bottom() + Vec2::new(0.0, 2.0), Align2::LEFT_TOP, newtons(low), font.clone(), text);
+    painter.text(bar.right_bottom() + Vec2::new(0.0, 2.0), Align2::RIGHT_TOP, newtons(high), font, text);
+}
+
+fn newtons(force: f64) -> String {
+    if force < 1e4 { format!("{force:.1} N") } else { format!("{:.1} kN", 1e-3 * force) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grid_steps_are_round() {
+        for (least, step) in [(0.8, 1.0), (1.0, 1.0), (1.3, 2.0), (3.0, 5.0), (7.0, 10.0), (0.03, 0.05)] {
+            assert!((grid_step(least) / step - 1.0).abs() < 1e-12, "{least}: {}", grid_step(least));
+        }
+        assert_eq!([trimmed(2.5), trimmed(-0.0), trimmed(10.0)], ["2.5", "0", "10"]);
+    }
+}

@@ -1,0 +1,141 @@
+//! `window.tautline`: what the page's scripts and tests see, and the text mirror for screen readers.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use eframe::egui;
+use js_sys::{JSON, Object, Reflect};
+use wasm_bindgen::prelude::*;
+
+use crate::app::answers::{Answers, CriticalState};
+use crate::compute::protocol::Revision;
+use crate::scenario::Scenario;
+use crate::scenario::report::KindReport;
+
+/// The element that mirrors the main results as text.
+const SUMMARY: &str = "tautline-summary";
+
+/// The page's side of the application.
+pub struct Page {
+    shared: Rc<RefCell<Shared>>,
+    summary: String,
+}
+
+#[derive(Default)]
+struct Shared {
+    scenario: String,
+    loaded: Option<Scenario>,
+    analysis: Option<String>,
+    analysis_key: Option<(Revision, bool)>,
+    frame_ms: Option<f64>,
+    analysis_ms: Option<f64>,
+}
+
+impl Page {
+    /// Sets `window.tautline`.
+    pub fn new(context: &egui::Context) -> Self {
+        let shared = Rc::new(RefCell::new(Shared::default()));
+        // A page without a window has nobody to tell.
+        if let Some(window) = web_sys::window() {
+            let _ = Reflect::set(&window, &"tautline".into(), &interface(&shared, context));
+        }
+        Self { shared, summary: String::new() }
+    }
+
+    /// The scenario that a script has loaded since the last call.
+    pub fn loaded(&self) -> Option<Scenario> {
+        self.shared.borrow_mut().loaded.take()
+    }
+
+    /// Makes the state of this frame visible.
+    pub fn publish(&mut self, scenario: &Scenario, answers: &Answers, frame_seconds: Option<f32>) {
+        let mut shared = self.shared.borrow_mut();
+        if shared.loaded.is_none() {
+            shared.scenario = scenario.to_json();
+        }
+        shared.frame_ms = frame_seconds.map(|seconds| 1e3 * f64::from(seconds));
+        shared.analysis_ms = answers.last_critical().map(|answer| answer.elapsed_ms);
+        if let Some((report, revision, current)) = answers.complete()
+            && shared.analysis_key != Some((revision, current))
+        {
+            shared.analysis_key = Some((revision, current));
+            shared.analysis = serde_json::to_value(report).ok().map(|mut analysis| {
+                analysis["revision"] = revision.into();
+                analysis["current"] = current.into();
+                analysis.to_string()
+            });
+        }
+        drop(shared);
+        self.mirror(answers);
+    }
+
+    /// Writes the main results into the document, once they are known.
+    fn mirror(&mut self, answers: &Answers) {
+        let text = match answers.critical() {
+            CriticalState::Recomputing { .. } => return,
+            CriticalState::Broken(reason) => format!("The analysis does not run: {reason}"),
+            CriticalState::Failed(failed) => failed.report.reason.clone().unwrap_or_default(),
+            CriticalState::Current(answer) => match &answer.critical {
+                None => format!("No critical speed up to {} metres per second.", answer.searched_up_to),
+                Some(critical) => {
+                    let kind = match critical.kind {
+                        KindReport::Flutter => format!("flutter at {:.4} hertz", critical.frequency_hz),
+                        KindReport::Divergence => "divergence".into(),
+                    };
+                    format!("Critical speed {:.4} metres per second, {kind}, cable {}.", critical.speed, critical.cable)
+                }
+            },
+        };
+        if text != self.summary {
+            let element = web_sys::window().and_then(|w| w.document()).and_then(|d| d.get_element_by_id(SUMMARY));
+            if let Some(element) = element {
+                element.set_text_content(Some(&text));
+            }
+            self.summary = text;
+        }
+    }
+}
+
+/// The object with `scenario()`, `load(json)`, `analysis()` and `timings()`.
+fn interface(shared: &Rc<RefCell<Shared>>, context: &egui::Context) -> Object {
+    let object = Object::new();
+    let set = |name: &str, function: JsValue| {
+        // Setting a property of a fresh object does not fail.
+        let _ = Reflect::set(&object, &name.into(), &function);
+    };
+    let state = shared.clone();
+    set("scenario", Closure::<dyn Fn() -> JsValue>::new(move || parsed(&state.borrow().scenario)).into_js_value());
+    let state = shared.clone();
+    let analysis = move || state.borrow().analysis.as_deref().map_or(JsValue::NULL, parsed);
+    set("analysis", Closure::<dyn Fn() -> JsValue>::new(analysis).into_js_value());
+    let state = shared.clone();
+    let timings = move || {
+        let timings = Object::new();
+        let number = |value: Option<f64>| value.map_or(JsValue::NULL, JsValue::from_f64);
+        let _ = Reflect::set(&timings, &"frame_ms".into(), &number(state.borrow().frame_ms));
+        let _ = Reflect::set(&timings, &"analysis_ms".into(), &number(state.borrow().analysis_ms));
+        JsValue::from(timings)
+    };
+    set("timings", Closure::<dyn Fn() -> JsValue>::new(timings).into_js_value());
+    let (state, context) = (shared.clone(), context.clone());
+    let load = move |json: JsValue| -> Result<(), JsValue> {
+        // An object is as good as its text.
+        let text = json.as_string().or_else(|| JSON::stringify(&json).ok()?.as_string()).unwrap_or_default();
+        let scenario = Scenario::from_json(&text).map_err(|faults| js_sys::Error::new(&faults.to_string()))?;
+        let mut state = state.borrow_mut();
+        state.scenario = scenario.to_json();
+        // The analysis on show belongs to the scenario before.
+        state.analysis =
+            state.analysis.take().map(|analysis| analysis.replace("\"current\":true", "\"current\":false"));
+        state.analysis_key = None;
+        state.loaded = Some(scenario);
+        context.request_repaint();
+        Ok(())
+    };
+    set("load", Closure::<dyn Fn(JsValue) -> Result<(), JsValue>>::new(load).into_js_value());
+    object
+}
+
+fn parsed(json: &str) -> JsValue {
+    JSON::parse(json).unwrap_or(JsValue::NULL)
+}

@@ -1,0 +1,93 @@
+//! The answer first: the critical speed in large figures and what belongs to it.
+
+use eframe::egui::{Label, RichText, Spinner, Ui};
+
+use crate::app::answers::{Answers, CriticalState};
+use crate::app::state::Document;
+use crate::app::theme;
+use crate::compute::protocol::CriticalAnswer;
+use crate::scenario::report::KindReport;
+
+/// What the criterion means; also the tooltip of the figure.
+const FROZEN_TIME: &str = "The critical speed of this method is where an eigenvalue of the robot, frozen at this moment \
+    of its motion, gets a positive real part. A cable that is being reeled in looks unstable at any speed unless damping \
+    hides it, so the figure tells where reeling-in overcomes damping, or where the flow of cable reaches its wave speed, \
+    whichever comes first.";
+
+/// Draws the answer.
+pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
+    let visuals = ui.visuals().clone();
+    ui.horizontal(|ui| {
+        ui.label(RichText::new("Critical speed").strong());
+        ui.weak("(frozen-time criterion: what is it?)").on_hover_text(FROZEN_TIME);
+    });
+    match answers.critical() {
+        CriticalState::Broken(reason) => {
+            ui.colored_label(theme::warning(&visuals), RichText::new("▲ The analysis does not run").size(20.0));
+            ui.label(reason);
+        }
+        CriticalState::Failed(failed) => {
+            ui.colored_label(theme::warning(&visuals), RichText::new("▲ No equilibrium").size(28.0));
+            ui.label(failed.report.reason.as_deref().unwrap_or("This pose could not be analysed."));
+            ui.weak("Drag the platform back, or change tensions or masses.");
+        }
+        CriticalState::Current(answer) => {
+            figures(ui, document, answers, answer, true);
+            ui.weak("Up to date");
+        }
+        CriticalState::Recomputing { last, searched_up_to } => {
+            if let Some(answer) = last {
+                figures(ui, document, answers, answer, false);
+            } else {
+                ui.label(RichText::new("…").size(32.0));
+            }
+            ui.horizontal(|ui| {
+                ui.add(Spinner::new().size(12.0));
+                match searched_up_to {
+                    Some(speed) => ui.weak(format!("Recomputing, stable up to {speed:.1} m/s so far")),
+                    None => ui.weak("Recomputing"),
+                }
+            });
+        }
+    }
+}
+
+fn figures(ui: &mut Ui, document: &Document, answers: &Answers, answer: &CriticalAnswer, current: bool) {
+    let visuals = ui.visuals().clone();
+    // An old figure is weak, and the line below says that it is being recomputed.
+    let shade = |colour| if current { colour } else { visuals.weak_text_color() };
+    let Some(critical) = &answer.critical else {
+        ui.colored_label(shade(theme::calm(&visuals)), RichText::new("None found").size(32.0));
+        ui.label(format!("Stable up to {} m/s, the limit of the search.", answer.searched_up_to));
+        return;
+    };
+    let figure = RichText::new(format!("{:.4} m/s", critical.speed)).size(34.0).strong();
+    ui.add(Label::new(figure.color(shade(visuals.strong_text_color())))).on_hover_text(FROZEN_TIME);
+    let rate = answers.pose().and_then(|pose| pose.report.cables.get(critical.cable - 1)).map(|c| c.length_rate);
+    let moving = rate.map_or("", |rate| if rate < 0.0 { ", being reeled in" } else { ", being paid out" });
+    let kind = match critical.kind {
+        KindReport::Flutter => format!("Flutter at {:.4} Hz", critical.frequency_hz),
+        KindReport::Divergence => "Divergence (no oscillation)".into(),
+    };
+    ui.colored_label(shade(visuals.text_color()), format!("{kind} · cable {}{moving}", critical.cable));
+
+    let speed = document.scenario.motion.speed;
+    let margin = critical.speed - speed;
+    let today = if margin > 0.0 {
+        let percent = 100.0 * margin / critical.speed;
+        RichText::new(format!("● Today's {speed:.2} m/s is {margin:.2} m/s ({percent:.0} %) below it"))
+            .color(shade(theme::calm(&visuals)))
+    } else {
+        RichText::new(format!("▲ Today's {speed:.2} m/s is {:.2} m/s above it", -margin))
+            .color(shade(theme::warning(&visuals)))
+    };
+    ui.label(today);
+    let stability = answers.pose().and_then(|pose| Some((pose.report.stable?, pose.report.max_growth_rate?)));
+    if let Some((stable, growth)) = stability {
+        let (word, colour) =
+            if stable { ("Stable", theme::calm(&visuals)) } else { ("Unstable", theme::warning(&visuals)) };
+        let pose_shade = if answers.pose_is_current() { colour } else { visuals.weak_text_color() };
+        let text = format!("{word} at today's speed: growth rate {growth:.4} 1/s");
+        ui.colored_label(pose_shade, text);
+    }
+}

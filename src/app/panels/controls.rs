@@ -1,0 +1,188 @@
+//! Sliders with typed values for everything that can be turned.
+
+use eframe::egui::{
+    Align, Button, CollapsingHeader, ComboBox, DragValue, Grid, Label, Layout, RichText, Sense, Slider, SliderClamping,
+    Ui, Vec2,
+};
+
+use crate::app::canvas;
+use crate::app::fields::{self, Field};
+use crate::app::state::{Command, Document};
+use crate::robot::{Linearisation, Strain, TensionLaw};
+use crate::scenario::{Scenario, presets};
+
+/// Room for a control's name, in points.
+const LABEL: Vec2 = Vec2::new(130.0, 18.0);
+
+/// Draws the controls; a change becomes one command.
+pub fn ui(ui: &mut Ui, document: &Document, original: &Scenario, commands: &mut Vec<Command>) {
+    let mut edited = document.scenario.clone();
+    examples(ui, document, commands);
+    let [x, y] = fields::position(canvas::frame(&document.scenario));
+    group(ui, "Motion", &mut edited, original, &[fields::SPEED, fields::DIRECTION, x, y]);
+    group(ui, "Cables and platform", &mut edited, original, &fields::BODY);
+    group(ui, "Damping and mesh", &mut edited, original, &fields::MODEL);
+    choices(ui, &mut edited);
+    tensions(ui, &mut edited, original);
+    if edited != document.scenario {
+        commands.push(Command::Edit(Box::new(edited)));
+    }
+}
+
+fn examples(ui: &mut Ui, document: &Document, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        let label = ui.label("Robot");
+        let name = document.scenario.name.as_deref().unwrap_or("Unnamed robot");
+        let list = ComboBox::from_id_salt("examples").selected_text(name).width(210.0).show_ui(ui, |ui| {
+            for preset in presets::PRESETS {
+                let chosen = document.scenario.name.as_deref() == Some(preset.title);
+                if ui.selectable_label(chosen, preset.title).on_hover_text(preset.description).clicked() {
+                    commands.push(Command::Load(Box::new(preset.scenario())));
+                }
+            }
+        });
+        list.response.labelled_by(label.id);
+    });
+}
+
+fn group(ui: &mut Ui, title: &str, edited: &mut Scenario, original: &Scenario, list: &[Field]) {
+    ui.add_space(6.0);
+    ui.label(RichText::new(title).strong());
+    rows(ui, edited, original, list);
+}
+
+fn rows(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, list: &[Field]) {
+    for field in list {
+        ui.push_id(field.number_id(), |ui| row(ui, edited, original, field));
+    }
+}
+
+impl Field {
+    fn number_id(&self) -> String {
+        format!("{:?}", self.number)
+    }
+}
+
+/// Name, slider, typed value, reset.
+fn row(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, field: &Field) {
+    let value = field.number.get(edited);
+    let mut shown = value / field.factor;
+    let before = shown;
+    ui.horizontal(|ui| {
+        let title = format!("{} {}", field.name, if field.symbol == field.name { "" } else { field.symbol });
+        let name = Label::new(title.trim_end()).truncate().sense(Sense::hover());
+        let column = ui.allocate_ui_with_layout(LABEL, Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_size(LABEL);
+            ui.add(name).on_hover_text(field.meaning)
+        });
+        let name = column.inner;
+        let [low, high] = field.range;
+        ui.spacing_mut().slider_width = (ui.available_width() - 122.0).clamp(60.0, 260.0);
+        let mut slider = Slider::new(&mut shown, low..=high)
+            .show_value(false)
+            .logarithmic(field.logarithmic)
+            .clamping(SliderClamping::Never);
+        if field.logarithmic {
+            slider = slider.smallest_positive(if low > 0.0 { low } else { 1e-4 * high });
+        }
+        if field.integer {
+            slider = slider.step_by(1.0);
+        }
+        ui.add(slider).labelled_by(name.id);
+        let suffix = if field.unit.is_empty() { String::new() } else { format!(" {}", field.unit) };
+        let mut typed = DragValue::new(&mut shown)
+            .speed(if field.logarithmic { 0.01 * before.abs().max(1e-4) } else { 0.002 * (high - low) })
+            .suffix(suffix)
+            .max_decimals(if field.integer { 0 } else { 6 })
+            .update_while_editing(false);
+        if field.integer {
+            typed = typed.speed(0.05);
+        }
+        ui.add_sized([84.0, 18.0], typed).labelled_by(name.id);
+        let first = field.number.get(original);
+        let differs = !same(value, first);
+        let reset = ui.add_enabled(differs, Button::new("↺").small().frame(false));
+        if reset.on_hover_text(format!("Back to {} {}", round(first / field.factor), field.unit)).clicked() {
+            shown = first / field.factor;
+        }
+    });
+    if !same(shown, before) {
+        field.number.set(edited, shown * field.factor);
+    }
+}
+
+/// Equal, or both no numbers: a typed NaN must not come back every frame.
+fn same(a: f64, b: f64) -> bool {
+    a.total_cmp(&b).is_eq()
+}
+
+/// Twelve digits: without the last ones that a unit's factor may spoil.
+fn round(value: f64) -> f64 {
+    format!("{value:.12e}").parse().unwrap_or(value)
+}
+
+fn choices(ui: &mut Ui, edited: &mut Scenario) {
+    ui.add_space(4.0);
+    Grid::new("choices").num_columns(2).show(ui, |ui| {
+        ui.label("Stiffness").on_hover_text("The elastic stiffness that a small vibration meets.");
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut edited.linearisation, Linearisation::Secant, "Secant")
+                .on_hover_text("(N/λ) I: the paper's simplification, its Eq. 15");
+            ui.radio_value(&mut edited.linearisation, Linearisation::Tangent, "Tangent")
+                .on_hover_text("(N/λ)(I − e⊗e) + N'(λ) e⊗e: the full derivative, its Eq. 14");
+        });
+        ui.end_row();
+        ui.label("Strain").on_hover_text("The strain measure of the axial law N(λ).");
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut edited.cable.strain, Strain::Green, "Green")
+                .on_hover_text("N = ½ EA (λ³ − λ), from the energy ½ EA ε² with ε = ½ (λ² − 1)");
+            ui.radio_value(&mut edited.cable.strain, Strain::Engineering, "Engineering")
+                .on_hover_text("N = EA (λ − 1)");
+        });
+        ui.end_row();
+    });
+}
+
+/// The prescribed cables: a constant, or the six coefficients of a law.
+fn tensions(ui: &mut Ui, edited: &mut Scenario, original: &Scenario) {
+    ui.add_space(6.0);
+    ui.label(RichText::new("Tension of the stiffening cables").strong());
+    for cable in 0..edited.cables.len() {
+        let law = edited.cables[cable].tension;
+        let kind = match law {
+            TensionLaw::Equilibrium => continue,
+            TensionLaw::Constant(tension) => format!("{} N", round(tension)),
+            TensionLaw::Hypot { .. } => "by law".into(),
+        };
+        CollapsingHeader::new(format!("Cable {}: {kind}", cable + 1)).id_salt(("tension", cable)).show(ui, |ui| {
+            ui.horizontal(|ui| {
+                let tension = tension_here(edited, cable);
+                let constant = matches!(law, TensionLaw::Constant(_));
+                if ui.radio(constant, "Constant").clicked() && !constant {
+                    edited.cables[cable].tension = TensionLaw::Constant(tension);
+                }
+                if ui.radio(!constant, "Law").on_hover_text(fields::law(0)[0].meaning).clicked() && constant {
+                    let vertical = [0.0, 0.0, 0.0];
+                    edited.cables[cable].tension = TensionLaw::Hypot { horizontal: [tension, 0.0, 0.0], vertical };
+                }
+                ui.weak(format!("{tension:.1} N here"));
+            });
+            match edited.cables[cable].tension {
+                TensionLaw::Constant(_) => rows(ui, edited, original, &[fields::tension(cable)]),
+                _ => rows(ui, edited, original, &fields::law(cable)),
+            }
+        });
+    }
+}
+
+/// What a cable's tension law gives at the platform's position, in N.
+fn tension_here(scenario: &Scenario, cable: usize) -> f64 {
+    let [x, y] = scenario.motion.position;
+    match scenario.cables[cable].tension {
+        TensionLaw::Equilibrium => 0.0,
+        TensionLaw::Constant(tension) => tension,
+        TensionLaw::Hypot { horizontal: [h0, hx, hy], vertical: [v0, vx, vy] } => {
+            (h0 + hx * x + hy * y).hypot(v0 + vx * x + vy * y)
+        }
+    }
+}

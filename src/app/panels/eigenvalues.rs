@@ -1,0 +1,60 @@
+//! Eigenvalues in the complex plane; a click chooses the mode whose shape moves on the canvas.
+
+use std::f64::consts::TAU;
+
+use eframe::egui::Ui;
+use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
+
+use super::near;
+use crate::app::answers::Answers;
+use crate::app::state::Command;
+use crate::app::theme;
+use crate::compute::protocol::ModeChoice;
+
+/// A click chooses a point that is at most this far away, in points.
+const REACH: f32 = 24.0;
+
+/// Draws the plot.
+pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec<Command>) {
+    let Some(pose) = answers.pose() else {
+        ui.weak("No eigenvalues at this pose.");
+        return;
+    };
+    ui.weak("Right of the line a vibration grows. Click a point: its mode moves on the canvas.");
+    let visuals = ui.visuals().clone();
+    let modes = pose.modes.iter().map(|mode| [mode.eigenvalue[0], mode.eigenvalue[1] / TAU]);
+    let (unstable, stable): (Vec<_>, Vec<_>) = modes.partition(|[growth, _]| *growth > 0.0);
+    let chosen = answers.shape().map(|shape| [shape.eigenvalue[0], shape.eigenvalue[1].abs() / TAU]);
+    let plot = Plot::new("eigenvalues")
+        .x_axis_label("Re λ, growth rate (1/s)")
+        .y_axis_label("Im λ/2π (Hz)")
+        .height(ui.available_height().max(220.0))
+        .include_x(0.2)
+        .allow_scroll(false)
+        .label_formatter(|hover| {
+            let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
+                hover;
+            Some(format!("{:.4} 1/s\n{:.4} Hz", point.x, point.y))
+        });
+    let shown = plot.show(ui, |plot| {
+        plot.vline(VLine::new("Limit of stability", 0.0).color(visuals.weak_text_color()));
+        let points = |name, points: Vec<[f64; 2]>, shape, colour, radius| {
+            Points::new(name, PlotPoints::from(points)).shape(shape).color(colour).radius(radius)
+        };
+        plot.points(points("Stable", stable, MarkerShape::Circle, theme::calm(&visuals), 3.0));
+        plot.points(points("Unstable", unstable, MarkerShape::Up, theme::warning(&visuals), 6.0));
+        if let Some(chosen) = chosen {
+            let ring = points("Mode on show", vec![chosen], MarkerShape::Circle, theme::accent(&visuals), 7.0);
+            plot.points(ring.filled(false));
+        }
+    });
+    if let Some(clicked) = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked()) {
+        let distance =
+            |mode: &[f64; 2]| shown.transform.position_from_point(&[mode[0], mode[1] / TAU].into()).distance(clicked);
+        let eigenvalues = pose.modes.iter().map(|mode| mode.eigenvalue);
+        let nearest = eigenvalues.min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        if let Some(eigenvalue) = nearest.filter(|mode| distance(mode) < REACH) {
+            commands.push(Command::ChooseMode(near(choice, eigenvalue)));
+        }
+    }
+}

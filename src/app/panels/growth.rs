@@ -1,0 +1,55 @@
+//! The largest growth rate against speed, with the critical speed and today's.
+
+use eframe::egui::Ui;
+use egui_plot::{Corner, HLine, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
+
+use crate::app::answers::{Answers, CriticalState};
+use crate::app::state::Document;
+use crate::app::theme;
+
+/// Draws the plot.
+pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
+    let Some(answer) = answers.last_critical() else {
+        ui.weak("No growth rates at this pose.");
+        return;
+    };
+    let visuals = ui.visuals().clone();
+    let current = matches!(answers.critical(), CriticalState::Current(_));
+    ui.weak(if current {
+        "Above the line at zero a vibration grows. Its first crossing is the critical speed."
+    } else {
+        "Being recomputed: this curve belongs to an earlier state."
+    });
+    let colour = if current { theme::calm(&visuals) } else { visuals.weak_text_color() };
+    Plot::new("growth")
+        .x_axis_label("Speed (m/s)")
+        .y_axis_label("Largest Re λ (1/s)")
+        .height(ui.available_height().max(220.0))
+        .include_y(0.0)
+        .allow_scroll(false)
+        .legend(Legend::default().position(Corner::LeftTop))
+        .label_formatter(|hover| {
+            let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
+                hover;
+            Some(format!("{:.3} m/s\n{:.4} 1/s", point.x, point.y))
+        })
+        .show(ui, |plot| {
+            plot.hline(HLine::new("", 0.0).color(visuals.weak_text_color()).allow_hover(false));
+            let curve = PlotPoints::from(near_zero(&answer.curve));
+            plot.line(Line::new("Growth rate", curve).color(colour).width(2.0));
+            if let Some(critical) = &answer.critical {
+                let line = VLine::new(format!("Critical {:.3} m/s", critical.speed), critical.speed);
+                plot.vline(line.color(theme::warning(&visuals)).width(2.0));
+            }
+            let speed = document.scenario.motion.speed;
+            let today = VLine::new(format!("Today {speed:.2} m/s"), speed).style(LineStyle::dashed_loose());
+            plot.vline(today.color(theme::accent(&visuals)).width(2.0));
+        });
+}
+
+/// The curve without its steep end: where growth far exceeds the decay at low speeds it would flatten the crossing.
+fn near_zero(curve: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let lowest = curve.iter().map(|point| point[1]).fold(0.0, f64::min);
+    let end = curve.iter().rposition(|point| point[1] <= -2.0 * lowest);
+    curve.iter().take(end.map_or(curve.len(), |end| end + 2)).copied().collect()
+}

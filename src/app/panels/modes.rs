@@ -1,0 +1,74 @@
+//! The table of modes; a click on a row chooses the mode whose shape moves on the canvas.
+
+use eframe::egui::{Label, Sense, Ui};
+use egui_extras::{Column, TableBuilder};
+
+use super::near;
+use crate::app::answers::Answers;
+use crate::app::state::Command;
+use crate::compute::protocol::ModeChoice;
+
+/// Draws the table.
+pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec<Command>) {
+    let Some(pose) = answers.pose() else {
+        ui.weak("No modes at this pose.");
+        return;
+    };
+    ui.weak("Modes at today's speed. ζ < 0 grows. The cable is the one with most of the kinetic energy.");
+    let chosen = answers.shape().filter(|shape| !shape.is_critical).map(|shape| shape.eigenvalue);
+    let height = ui.available_height().max(220.0);
+    TableBuilder::new(ui)
+        .id_salt("modes")
+        .striped(true)
+        .sense(Sense::click())
+        .max_scroll_height(height - 24.0)
+        .min_scrolled_height(180.0)
+        .column(Column::auto().at_least(28.0))
+        .columns(Column::auto().at_least(64.0), 3)
+        .column(Column::remainder())
+        .header(18.0, |mut header| {
+            for title in ["#", "Hz", "1/s", "ζ", "Cable"] {
+                header.col(|ui| {
+                    ui.strong(title);
+                });
+            }
+        })
+        .body(|body| {
+            body.rows(18.0, pose.modes.len(), |mut row| {
+                let i = row.index();
+                let mode = &pose.modes[i];
+                row.set_selected(chosen == Some(mode.eigenvalue));
+                let name = if mode.multiplicity > 1 {
+                    format!("{}×{}", i + 1, mode.multiplicity)
+                } else {
+                    (i + 1).to_string()
+                };
+                let [growth, _] = mode.eigenvalue;
+                let share = mode.cable_share.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+                let cable = match share {
+                    Some((_, &share)) if share < mode.platform_share => {
+                        format!("platform {:.0} %", 100.0 * mode.platform_share)
+                    }
+                    Some((cable, share)) => format!("{} ({:.0} %)", cable + 1, 100.0 * share),
+                    None => String::new(),
+                };
+                let sign = if growth > 0.0 { "▲ " } else { "" };
+                let cells = [
+                    name,
+                    format!("{:.4}", mode.frequency_hz),
+                    format!("{sign}{growth:.4}"),
+                    format!("{:.4}", mode.damping_ratio),
+                    cable,
+                ];
+                for cell in cells {
+                    row.col(|ui| {
+                        // A selectable label would keep the click from the row.
+                        ui.add(Label::new(cell).selectable(false));
+                    });
+                }
+                if row.response().clicked() {
+                    commands.push(Command::ChooseMode(near(choice, mode.eigenvalue)));
+                }
+            });
+        });
+}

@@ -1,0 +1,70 @@
+//! The tabs of plots and the mode shape's playback.
+
+use eframe::egui::{Slider, Ui};
+
+use super::{eigenvalues, growth, modes};
+use crate::app::answers::Answers;
+use crate::app::state::{Command, Document, Playback, Plot, UiState};
+use crate::compute::protocol::{ModeChoice, Which};
+use crate::robot::Linearisation;
+
+/// Draws the tabs, the open plot and the playback.
+pub fn ui(state: &mut UiState, ui: &mut Ui, document: &Document, answers: &Answers, commands: &mut Vec<Command>) {
+    playback(&mut state.playback, ui, document, answers, state.mode, commands);
+    ui.separator();
+    ui.horizontal_wrapped(|ui| {
+        ui.selectable_value(&mut state.plot, Plot::Eigenvalues, "Eigenvalues");
+        ui.selectable_value(&mut state.plot, Plot::Growth, "Growth rate");
+        ui.selectable_value(&mut state.plot, Plot::Modes, "Modes");
+    });
+    match state.plot {
+        Plot::Eigenvalues => eigenvalues::ui(ui, answers, state.mode, commands),
+        Plot::Growth => growth::ui(ui, document, answers),
+        Plot::Modes => modes::ui(ui, answers, state.mode, commands),
+    }
+}
+
+fn playback(
+    playback: &mut Playback,
+    ui: &mut Ui,
+    document: &Document,
+    answers: &Answers,
+    choice: ModeChoice,
+    commands: &mut Vec<Command>,
+) {
+    let what = answers.shape().map_or_else(
+        || "No mode shape".to_owned(),
+        |shape| {
+            let which = if shape.is_critical { "Mode that becomes unstable" } else { "Chosen mode" };
+            let frequency = shape.eigenvalue[1].abs() / std::f64::consts::TAU;
+            format!("{which}: {frequency:.3} Hz at {:.2} m/s", shape.speed)
+        },
+    );
+    ui.label(what);
+    ui.horizontal_wrapped(|ui| {
+        let label = if playback.playing { "‖ Pause" } else { "▶ Play" };
+        if ui.button(label).clicked() {
+            playback.playing = !playback.playing;
+        }
+        let critical = choice.which == Which::Critical;
+        let response = ui.selectable_label(critical, "Critical mode");
+        if response.on_hover_text("Show the mode that crosses at the critical speed").clicked() && !critical {
+            commands.push(Command::ChooseMode(ModeChoice { which: Which::Critical, ..choice }));
+        }
+        if document.scenario.linearisation == Linearisation::Secant {
+            let text = "With secant stiffness x and y vibrate alike and independently; this shows one of the two.";
+            for (along_x, name) in [(true, "x"), (false, "y")] {
+                let response = ui.selectable_label(choice.along_x == along_x, name).on_hover_text(text);
+                if response.clicked() && choice.along_x != along_x {
+                    commands.push(Command::ChooseMode(ModeChoice { along_x, ..choice }));
+                }
+            }
+        }
+    });
+    ui.horizontal(|ui| {
+        ui.spacing_mut().slider_width = 90.0;
+        ui.add(Slider::new(&mut playback.amplitude, 0.0..=0.1).show_value(false).text("Amplitude"));
+        ui.add(Slider::new(&mut playback.slow_motion, 0.02..=2.0).logarithmic(true).show_value(false).text("Tempo"))
+            .on_hover_text("Seconds of the robot per second of the screen");
+    });
+}

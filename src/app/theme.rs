@@ -1,0 +1,57 @@
+//! Colours: one accent, and a colour-blind-safe sequential map for tension.
+
+use eframe::egui::{Color32, Context, FontDefinitions, FontFamily, Visuals};
+
+/// Lets symbols such as ▲, ▶ and ↺ come from egui's monospaced font, since its proportional one has none.
+pub fn install_fonts(context: &Context) {
+    let mut fonts = FontDefinitions::default();
+    fonts.families.entry(FontFamily::Proportional).or_default().push("Hack".into());
+    context.set_fonts(fonts);
+}
+
+/// Nine stops of the viridis map (Smith and van der Walt, matplotlib, CC0), dark to light.
+const VIRIDIS: [[u8; 3]; 9] = [
+    [68, 1, 84],
+    [71, 44, 122],
+    [59, 81, 139],
+    [44, 113, 142],
+    [33, 144, 141],
+    [39, 173, 129],
+    [92, 200, 99],
+    [170, 220, 50],
+    [253, 231, 37],
+];
+
+/// The accent: the platform, the velocity, what is selected.
+pub fn accent(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(110, 175, 255) } else { Color32::from_rgb(20, 95, 190) }
+}
+
+/// What is unstable: always with a word or a shape as well.
+pub fn warning(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(255, 150, 90) } else { Color32::from_rgb(185, 65, 0) }
+}
+
+/// What is stable.
+pub fn calm(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(120, 205, 165) } else { Color32::from_rgb(0, 110, 80) }
+}
+
+/// The colour of a value at `part` ∈ [0, 1] of its range. The end of the map that the background would swallow is
+/// left out.
+pub fn sequential(part: f64, visuals: &Visuals) -> Color32 {
+    let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.0 };
+    let part = if visuals.dark_mode { 0.25 + 0.75 * part } else { 0.82 * part };
+    let position = part * (VIRIDIS.len() - 1) as f64;
+    // In 0..=7: the parts are clamped.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let below = (position as usize).min(VIRIDIS.len() - 2);
+    let weight = position - below as f64;
+    let mix = |i: usize| {
+        let value = f64::from(VIRIDIS[below][i]) * (1.0 - weight) + f64::from(VIRIDIS[below + 1][i]) * weight;
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let byte = value.round() as u8;
+        byte
+    };
+    Color32::from_rgb(mix(0), mix(1), mix(2))
+}

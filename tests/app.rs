@@ -1,0 +1,425 @@
+//! The interface without a browser or a window: found by accessibility label, moved by real pointer events.
+
+#![cfg(feature = "app")]
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Theme, Vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, Node};
+use tautline::app::Tautline;
+use tautline::robot::{Linearisation, Strain, TensionLaw};
+use tautline::scenario::{Report, Scenario, presets};
+
+/// Points of the screen per metre of the paper's robot at this window size; asserted in the drag test itself.
+const SIZE: Vec2 = Vec2::new(1280.0, 800.0);
+/// An analysis takes well under a second; a loaded machine gets a minute.
+const PATIENCE: Duration = Duration::from_mins(1);
+
+fn paper() -> Scenario {
+    presets::PRESETS[0].scenario()
+}
+
+fn app_with(scenario: Scenario, size: Vec2, theme: Theme) -> Harness<'static, Tautline> {
+    let mut app = Harness::builder()
+        .with_size(size)
+        .with_theme(theme)
+        .with_step_dt(1.0 / 60.0)
+        .build_eframe(|context| Tautline::new(&context.egui_ctx, scenario));
+    settle(&mut app);
+    app
+}
+
+fn app() -> Harness<'static, Tautline> {
+    app_with(paper(), SIZE, Theme::Light)
+}
+
+/// Steps until the analysis on show belongs to the document as it is, and everything drawn knows it.
+fn settle(app: &mut Harness<'static, Tautline>) {
+    // One step takes the input in, the next carries the command out.
+    app.run_steps(3);
+    let begun = Instant::now();
+    while !app.state().analysis().is_some_and(|analysis| analysis.current) {
+        assert!(begun.elapsed() < PATIENCE, "no analysis after {PATIENCE:?}");
+        std::thread::sleep(Duration::from_millis(2));
+        app.step();
+    }
+    app.run_steps(3);
+}
+
+/// Steps until `condition` holds.
+fn wait(app: &mut Harness<'static, Tautline>, what: &str, condition: impl Fn(&Tautline) -> bool) {
+    let begun = Instant::now();
+    while !condition(app.state()) {
+        assert!(begun.elapsed() < PATIENCE, "{what}: not after {PATIENCE:?}");
+        std::thread::sleep(Duration::from_millis(2));
+        app.step();
+    }
+}
+
+fn report(app: &Harness<'static, Tautline>) -> Report {
+    app.state().analysis().expect("an analysis").report.clone()
+}
+
+/// What the core answers for the document, computed anew.
+fn cold(scenario: &Scenario) -> Report {
+    let (robot, motion) = scenario.to_robot().expect("physical");
+    Report::analyze(&robot, &motion, 40.0)
+}
+
+fn drag(app: &mut Harness<'static, Tautline>, from: Pos2, to: Pos2) {
+    app.hover_at(from);
+    app.step();
+    app.drag_at(from);
+    app.step();
+    for part in 1..=10_u8 {
+        app.hover_at(from + (to - from) * (f32::from(part) / 10.0));
+        app.step();
+    }
+    app.drop_at(to);
+    app.step();
+}
+
+fn type_value(app: &mut Harness<'static, Tautline>, label: &str, text: &str) {
+    app.get_by_role_and_label(Role::SpinButton, label).click();
+    app.run_steps(2);
+    let select_all = Modifiers::COMMAND;
+    app.key_press_modifiers(select_all, Key::A);
+    app.step();
+    app.event(eframe::egui::Event::Text(text.into()));
+    app.step();
+    app.key_press(Key::Enter);
+    settle(app);
+}
+
+#[test]
+fn shows_the_papers_robot_and_its_critical_speed() {
+    let app = app();
+    let critical = report(&app).critical.expect("a critical speed");
+    // Independent figure: docs/theory.md, reference numbers.
+    assert!((critical.speed - 11.2990).abs() < 1e-4, "{critical:?}");
+    app.get_by_label("11.2990 m/s");
+    app.get_by_label("Up to date");
+    assert!(app.query_by_label_contains("Flutter at 0.27").is_some());
+    assert!(app.query_by_label_contains("6.30 m/s (56 %) below").is_some());
+}
+
+#[test]
+fn dragging_the_platform_to_x_6_shows_the_reference_speed() {
+    let mut app = app();
+    let platform = app.get_by_label("Platform").rect().center();
+    let before = app.state().scenario().motion.position;
+    // A first drag measures the scale of the canvas, the second goes to x = 6.
+    drag(&mut app, platform, platform + Vec2::new(60.0, 0.0));
+    settle(&mut app);
+    let moved = app.state().scenario().motion.position;
+    let scale = 60.0 / (moved[0] - before[0]);
+    assert!((10.0..60.0).contains(&scale), "{scale} points per metre");
+    assert!((moved[1] - before[1]).abs() < 1e-3, "a horizontal drag moved y to {}", moved[1]);
+
+    let platform = app.get_by_label("Platform").rect().center();
+    #[expect(clippy::cast_possible_truncation)]
+    let to = platform + Vec2::new(((6.0 - moved[0]) * scale) as f32, 0.0);
+    drag(&mut app, platform, to);
+    settle(&mut app);
+    let position = app.state().scenario().motion.position;
+    assert!((position[0] - 6.0).abs() < 1e-3, "{position:?}");
+    let critical = report(&app).critical.expect("a critical speed");
+    // 10.0125 m/s at (6, 0); within the millimetre of a drag the speed changes by less than 1e-3 m/s.
+    assert!((critical.speed - 10.0125).abs() < 1e-3, "{critical:?}");
+    assert_eq!(report(&app), cold(app.state().scenario()), "a drag and a cold start differ");
+}
+
+#[test]
+fn arrow_keys_move_the_platform_and_shift_makes_them_fine() {
+    let mut app = app();
+    app.get_by_label("Platform").focus();
+    app.run_steps(2);
+    app.key_press(Key::ArrowRight);
+    settle(&mut app);
+    let [x, _] = app.state().scenario().motion.position;
+    assert!((x - 0.1).abs() < 1e-12, "{x}");
+    app.key_press_modifiers(Modifiers::SHIFT, Key::ArrowUp);
+    settle(&mut app);
+    let [x, y] = app.state().scenario().motion.position;
+    assert!((x - 0.1).abs() < 1e-12 && (y - 0.01).abs() < 1e-12, "{x} {y}");
+}
+
+#[test]
+fn the_arrows_tip_sets_speed_and_direction() {
+    let mut app = app();
+    let platform = app.get_by_label("Platform").rect().center();
+    let tip = app.get_by_label("Velocity").rect().center();
+    drag(&mut app, tip, platform + Vec2::new(0.0, -(tip - platform).length()));
+    settle(&mut app);
+    let motion = app.state().scenario().motion;
+    // Up on the screen is +y; the same length of arrow is the same speed.
+    assert!(motion.direction[0].abs() < 1e-3 && (motion.direction[1] - 1.0).abs() < 1e-3, "{motion:?}");
+    assert!((motion.speed - 5.0).abs() < 0.05, "{motion:?}");
+    // A critical speed does not depend on today's speed.
+    let now = report(&app).critical.map(|c| c.speed);
+    let tip = app.get_by_label("Velocity").rect().center();
+    drag(&mut app, tip, tip + Vec2::new(0.0, -40.0));
+    settle(&mut app);
+    assert!(app.state().scenario().motion.speed > 5.5);
+    assert_eq!(report(&app).critical.map(|c| c.speed), now);
+}
+
+#[test]
+fn sliders_and_typed_values_change_the_robot() {
+    type Get = fn(&Scenario) -> f64;
+    let mut app = app();
+    let cases: [(&str, &str, Get, f64); 8] = [
+        ("Young's modulus E", "200", |s| s.cable.youngs_modulus, 200e6),
+        ("Cross-section A", "0.6", |s| s.cable.area, 0.6e-4),
+        ("Cable mass μ", "0.3", |s| s.cable.mass_per_length, 0.3),
+        ("Platform mass m", "3", |s| s.platform.mass, 3.0),
+        ("Gravity g", "1.62", |s| s.gravity, 1.62),
+        ("Mass damping α", "0.4", |s| s.damping.alpha, 0.4),
+        ("Stiffness damping β", "0.004", |s| s.damping.beta, 0.004),
+        ("Elements per cable n", "8", |s| f64::from(u32::try_from(s.elements_per_cable).unwrap()), 8.0),
+    ];
+    for (label, text, get, expected) in cases {
+        let before = report(&app).critical.map(|c| c.speed);
+        type_value(&mut app, label, text);
+        let value = get(app.state().scenario());
+        assert!((value / expected - 1.0).abs() < 1e-12, "{label}: {value} in place of {expected}");
+        assert_ne!(report(&app).critical.map(|c| c.speed), before, "{label} changed nothing");
+    }
+    assert_eq!(report(&app), cold(app.state().scenario()));
+
+    // The slider beside the typed value.
+    let slider = app.get_by_role_and_label(Role::Slider, "Speed v");
+    slider.set_value_accesskit(12.0);
+    settle(&mut app);
+    let speed = app.state().scenario().motion.speed;
+    assert!((speed - 12.0).abs() < 1e-9, "{speed}");
+
+    // And back to what they were.
+    let buttons: Vec<Pos2> = app.get_all_by_label("↺").map(|button| button.rect().center()).collect();
+    for centre in buttons {
+        click_at(&mut app, centre);
+    }
+    settle(&mut app);
+    assert_eq!(app.state().scenario(), &paper());
+}
+
+fn click_at(app: &mut Harness<'static, Tautline>, centre: Pos2) {
+    app.hover_at(centre);
+    app.step();
+    for pressed in [true, false] {
+        let modifiers = Modifiers::default();
+        app.event(eframe::egui::Event::PointerButton {
+            pos: centre,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers,
+        });
+        app.step();
+    }
+    app.step();
+}
+
+#[test]
+fn a_value_that_is_not_physical_is_refused_with_field_value_and_what_is_allowed() {
+    let mut app = app();
+    let before = app.state().scenario().clone();
+    for (label, text, path) in [
+        ("Platform mass m", "-2", "platform.mass"),
+        ("Young's modulus E", "0", "cable.youngs_modulus"),
+        ("Elements per cable n", "900", "elements_per_cable"),
+        ("Mass damping α", "NaN", "damping.alpha"),
+        ("Speed v", "-1", "motion.speed"),
+    ] {
+        type_value(&mut app, label, text);
+        assert_eq!(app.state().scenario(), &before, "{label} = {text} was taken over");
+        if text != "NaN" {
+            let notice = app.state().notice().unwrap_or_default().to_owned();
+            assert!(notice.contains(path) && notice.contains("allowed"), "{label}: {notice:?}");
+        }
+    }
+    app.get_by_label("Dismiss").click();
+    settle(&mut app);
+    assert_eq!(app.state().notice(), None);
+}
+
+#[test]
+fn choices_change_the_model() {
+    let mut app = app();
+    app.get_by_label("Tangent").click();
+    settle(&mut app);
+    assert_eq!(app.state().scenario().linearisation, Linearisation::Tangent);
+    let critical = report(&app).critical.expect("a critical speed");
+    // Reference case 6: 10.906966 m/s.
+    assert!((critical.speed - 10.906_966).abs() < 1e-4, "{critical:?}");
+    app.get_by_label("Engineering").click();
+    settle(&mut app);
+    assert_eq!(app.state().scenario().cable.strain, Strain::Engineering);
+    assert_eq!(report(&app), cold(app.state().scenario()));
+}
+
+#[test]
+fn tension_laws_can_be_edited_and_replaced_by_constants() {
+    let mut app = app();
+    app.get_by_label("Cable 3: by law").click();
+    settle(&mut app);
+    app.run_steps(30); // The section opens with an animation.
+    type_value(&mut app, "h0", "55");
+    let TensionLaw::Hypot { horizontal, .. } = app.state().scenario().cables[2].tension else { panic!("no law") };
+    assert!((horizontal[0] - 55.0).abs() < 1e-12, "{horizontal:?}");
+    app.get_by_label("Constant").click();
+    settle(&mut app);
+    let TensionLaw::Constant(tension) = app.state().scenario().cables[2].tension else { panic!("no constant") };
+    // The constant starts where the law was: hypot(55, 45).
+    assert!((tension - 55.0_f64.hypot(45.0)).abs() < 1e-9, "{tension}");
+    assert_eq!(report(&app), cold(app.state().scenario()));
+}
+
+#[test]
+fn an_infeasible_pose_is_told_and_recovered_from() {
+    let mut app = app();
+    let platform = app.get_by_label("Platform").rect().center();
+    drag(&mut app, platform, platform + Vec2::new(230.0, 0.0));
+    settle(&mut app);
+    assert!(app.state().scenario().motion.position[0] > 7.5, "{:?}", app.state().scenario().motion);
+    let told = report(&app);
+    assert!(!told.feasible && told.critical.is_none() && told.eigenvalues.is_empty(), "{told:?}");
+    let reason = told.reason.expect("a reason");
+    assert!(reason.contains("able 1 would have to push") && reason.ends_with('.'), "{reason}");
+    app.get_by_label(&reason);
+    nothing_shows_nan(&app);
+
+    let platform = app.get_by_label("Platform").rect().center();
+    drag(&mut app, platform, platform - Vec2::new(100.0, 0.0));
+    settle(&mut app);
+    assert!(report(&app).feasible);
+    assert!(app.query_by_label_contains("Today's 5.00 m/s").is_some());
+    assert_eq!(report(&app), cold(app.state().scenario()));
+}
+
+#[test]
+fn a_mode_is_chosen_in_the_table_and_followed() {
+    let mut app = app();
+    app.get_by_label("Modes").click();
+    settle(&mut app);
+    let spectrum = report(&app).eigenvalues;
+    // The third row's frequency cell; rows are sorted by frequency, each of two equal eigenvalues.
+    let mut frequencies: Vec<f64> = spectrum.iter().map(|l| l[1]).filter(|im| *im > 0.0).collect();
+    frequencies.sort_by(f64::total_cmp);
+    let third = frequencies[4];
+    let cell = format!("{:.4}", third / std::f64::consts::TAU);
+    let centre = app.get_all_by_label(&cell).next().expect("the third mode's row").rect().center();
+    click_at(&mut app, centre);
+    wait(&mut app, "the third mode", |app| app.mode_on_show().is_some_and(|l| (l[1] - third).abs() < 1e-9));
+
+    // It is followed as the robot changes a little.
+    app.get_by_label("Platform").focus();
+    app.run_steps(2);
+    app.key_press(Key::ArrowRight);
+    settle(&mut app);
+    let followed = app.state().mode_on_show().expect("a mode");
+    assert!((followed[1] - third).abs() < 0.05 * third && (followed[1] - third).abs() > 0.0, "{followed:?} {third}");
+    app.get_by_label("Critical mode").click();
+    let critical = report(&app).critical.expect("a critical speed").frequency_hz * std::f64::consts::TAU;
+    wait(&mut app, "the critical mode", |app| app.mode_on_show().is_some_and(|l| (l[1] - critical).abs() < 1e-9));
+}
+
+#[test]
+fn examples_load_from_the_list() {
+    let mut app = app();
+    app.get_by_role_and_label(Role::ComboBox, "Robot").click();
+    app.run_steps(3);
+    app.get_by_label(presets::PRESETS[1].title).click();
+    settle(&mut app);
+    assert_eq!(app.state().scenario(), &presets::PRESETS[1].scenario());
+}
+
+#[test]
+fn works_on_a_phone_and_in_the_dark() {
+    let mut app = app_with(paper(), Vec2::new(360.0, 740.0), Theme::Dark);
+    app.get_by_label("11.2990 m/s");
+    let platform = app.get_by_label("Platform").rect().center();
+    drag(&mut app, platform, platform + Vec2::new(20.0, 0.0));
+    settle(&mut app);
+    assert!(app.state().scenario().motion.position[0] > 0.5);
+    app.get_by_label("Plots").click();
+    settle(&mut app);
+    app.get_by_label("Eigenvalues");
+    let screen = Vec2::new(360.0, 740.0);
+    for label in ["Platform", "Velocity", "Eigenvalues", "Modes"] {
+        let rect = app.get_by_label(label).rect();
+        assert!(rect.max.x <= screen.x + 1.0 && rect.min.x >= -1.0, "{label} sticks out: {rect:?}");
+    }
+    nothing_shows_nan(&app);
+}
+
+fn nothing_shows_nan(app: &Harness<'static, Tautline>) {
+    let shown = |node: &Node<'_>| {
+        let node = node.accesskit_node();
+        format!("{} {}", node.label().unwrap_or_default(), node.value().unwrap_or_default())
+    };
+    let texts: Vec<String> = app.get_all_by(|_| true).map(|node| shown(&node)).collect();
+    assert!(texts.len() > 20, "only {} nodes", texts.len());
+    let bad: Vec<&String> = texts.iter().filter(|text| text.contains("NaN") || text.contains("inf ")).collect();
+    assert!(bad.is_empty(), "{bad:?}");
+}
+
+#[test]
+fn the_wheel_zooms_about_the_pointer_and_a_double_click_goes_back() {
+    let mut app = app();
+    let platform = |app: &Harness<'static, Tautline>| app.get_by_label("Platform").rect().center();
+    let home = platform(&app);
+    let fixed = home + Vec2::new(0.0, -200.0);
+    app.hover_at(fixed);
+    app.step();
+    app.event(eframe::egui::Event::MouseWheel {
+        unit: eframe::egui::MouseWheelUnit::Point,
+        delta: Vec2::new(0.0, 120.0),
+        phase: eframe::egui::TouchPhase::Move,
+        source: eframe::egui::MouseWheelSource::Unknown,
+        modifiers: Modifiers::default(),
+    });
+    app.run_steps(60); // The wheel is smoothed over some frames.
+    let zoomed = platform(&app);
+    // The pointer's point stays; what is below it moves away from it, straight down.
+    assert!(zoomed.y > home.y + 20.0 && (zoomed.x - home.x).abs() < 1.0, "{home:?} {zoomed:?}");
+
+    drag(&mut app, fixed, fixed + Vec2::new(50.0, 10.0));
+    let panned = platform(&app);
+    assert!((panned - zoomed - Vec2::new(50.0, 10.0)).length() < 1.0, "{zoomed:?} {panned:?}");
+    assert_eq!(app.state().scenario(), &paper(), "looking changes nothing");
+
+    app.run_steps(30); // So that the drag's click is long past.
+    for _ in 0..2 {
+        click_at(&mut app, fixed);
+    }
+    app.run_steps(3);
+    assert!((platform(&app) - home).length() < 0.5, "{:?}", platform(&app));
+}
+
+#[test]
+fn a_click_on_an_eigenvalue_shows_its_mode() {
+    let mut app = app();
+    let critical = app.state().mode_on_show().expect("the critical mode");
+    // The plot fills the lower right; its points lie close to its right edge, the lowest frequencies at the bottom.
+    let tab = app.get_by_role_and_label(Role::Button, "Eigenvalues").rect();
+    let mut chosen = None;
+    'search: for up in 0..12_u8 {
+        for left in 0..6_u8 {
+            let point = Pos2::new(SIZE.x - 30.0 - 8.0 * f32::from(left), SIZE.y - 120.0 - 30.0 * f32::from(up));
+            assert!(point.y > tab.max.y, "searched the whole plot");
+            click_at(&mut app, point);
+            app.run_steps(2);
+            std::thread::sleep(Duration::from_millis(20));
+            app.step();
+            chosen = app.state().mode_on_show().filter(|mode| mode.map(f64::to_bits) != critical.map(f64::to_bits));
+            if chosen.is_some() {
+                break 'search;
+            }
+        }
+    }
+    let chosen = chosen.expect("a click near an eigenvalue chooses it");
+    let known = report(&app).eigenvalues;
+    assert!(known.contains(&chosen), "{chosen:?} is none of the eigenvalues");
+}

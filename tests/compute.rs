@@ -1,0 +1,176 @@
+//! The engine behind the interface: newest wins, answers carry their revision, long work stays interruptible.
+
+#![cfg(feature = "compute")]
+
+use tautline::compute::Engine;
+use tautline::compute::protocol::{Job, ModeChoice, Reply, Request, Update, Which};
+use tautline::robot::Linearisation;
+use tautline::scenario::{Report, Scenario, presets};
+
+const CRITICAL: ModeChoice = ModeChoice { which: Which::Critical, along_x: false };
+
+fn paper_at(x: f64) -> Scenario {
+    let mut scenario = presets::PRESETS[0].scenario();
+    scenario.motion.position = [x, 0.0];
+    scenario
+}
+
+fn job(revision: u64, scenario: &Scenario, mode: ModeChoice) -> Request {
+    Request::Analyze(Job { revision, scenario: scenario.to_json(), max_speed: 40.0, mode })
+}
+
+/// Works until nothing is left to do.
+fn finish(engine: &mut Engine) -> Vec<Reply> {
+    std::iter::from_fn(|| engine.work()).flatten().collect()
+}
+
+fn cold(scenario: &Scenario) -> Report {
+    let (robot, motion) = scenario.to_robot().expect("physical");
+    Report::analyze(&robot, &motion, 40.0)
+}
+
+#[test]
+fn a_job_is_answered_with_pose_critical_speed_shape_and_curve() {
+    let scenario = paper_at(2.0);
+    let mut engine = Engine::default();
+    engine.submit(job(7, &scenario, CRITICAL));
+    let replies = finish(&mut engine);
+    assert!(replies.iter().all(|reply| reply.revision == 7));
+    let expected = cold(&scenario);
+    let mut seen = [false; 4];
+    for Reply { update, .. } in replies {
+        match update {
+            Update::Pose(pose) => {
+                assert_eq!(pose.report.eigenvalues, expected.eigenvalues);
+                assert_eq!(pose.report.critical, None, "not known yet");
+                let counted: usize = pose
+                    .modes
+                    .iter()
+                    .map(|mode| mode.multiplicity * if mode.eigenvalue[1] > 0.0 { 2 } else { 1 })
+                    .sum();
+                assert_eq!(counted, 148);
+                for mode in &pose.modes {
+                    let total = mode.platform_share + mode.cable_share.iter().sum::<f64>();
+                    assert!((total - 1.0).abs() < 1e-12, "shares add up to {total}");
+                }
+                seen[0] = true;
+            }
+            Update::Critical(answer) => {
+                assert_eq!(answer.critical, expected.critical);
+                assert!(answer.curve.windows(2).all(|ends| ends[0][0] < ends[1][0]), "speeds rise");
+                seen[1] = true;
+            }
+            Update::Shape(shape) => {
+                assert!(shape.is_critical && shape.eigenvalue[0].abs() < 1e-6, "{:?}", shape.eigenvalue);
+                let largest = shape.displacement.iter().flatten().flat_map(|q| [q[0].hypot(q[1]), q[2].hypot(q[3])]);
+                assert!((largest.fold(0.0, f64::max) - 1.0).abs() < 1e-12);
+                seen[2] = true;
+            }
+            Update::Curve(points) => {
+                let critical = expected.critical.as_ref().expect("a critical speed").speed;
+                assert!(points.iter().all(|point| point[0] > critical) && points[0][1] > 0.0);
+                seen[3] = true;
+            }
+            Update::Searching(speed) => assert!(speed <= 40.0),
+            other => panic!("unexpected: {other:?}"),
+        }
+    }
+    assert_eq!(seen, [true; 4]);
+}
+
+#[test]
+fn the_newest_pose_is_served_first_and_only_the_newest_search_need_finish() {
+    let mut engine = Engine::default();
+    // Tangent stiffness with many elements: a search of seconds.
+    let mut slow = paper_at(0.0);
+    slow.linearisation = Linearisation::Tangent;
+    slow.elements_per_cable = 16;
+    engine.submit(job(1, &slow, CRITICAL));
+    let first = engine.work().expect("work");
+    assert!(matches!(first[0].update, Update::Pose(_)) && first[0].revision == 1);
+    for _ in 0..3 {
+        engine.work().expect("a search");
+    }
+    for revision in 2..=9 {
+        engine.submit(job(revision, &paper_at(0.5 * f64::from(u8::try_from(revision).unwrap())), CRITICAL));
+    }
+    let next = engine.work().expect("work");
+    assert!(matches!(next[0].update, Update::Pose(_)), "{next:?}");
+    assert_eq!(next[0].revision, 9, "jobs between the running and the newest one are skipped");
+    let rest = finish(&mut engine);
+    assert!(rest.iter().all(|reply| [1, 9].contains(&reply.revision)));
+    let Some(Update::Critical(answer)) = rest
+        .iter()
+        .filter(|reply| reply.revision == 9)
+        .map(|reply| &reply.update)
+        .find(|update| matches!(update, Update::Critical(_)))
+    else {
+        panic!("the newest job has no critical speed")
+    };
+    assert_eq!(answer.critical, cold(&paper_at(4.5)).critical);
+}
+
+#[test]
+fn an_infeasible_pose_is_a_complete_answer_with_what_can_be_drawn() {
+    let mut engine = Engine::default();
+    engine.submit(job(3, &paper_at(8.0), CRITICAL));
+    let replies = finish(&mut engine);
+    let [Reply { revision: 3, update: Update::Failed(failed) }] = &replies[..] else { panic!("{replies:?}") };
+    assert_eq!(failed.cable, Some(0));
+    assert!(!failed.report.feasible && failed.report.reason.as_deref().is_some_and(|r| r.contains("cable 1")));
+    let drawn: Vec<bool> = failed.shapes.iter().map(Option::is_some).collect();
+    assert_eq!(drawn, [false, false, true, true], "the stiffening cables have a shape");
+}
+
+#[test]
+fn a_broken_scenario_is_told_not_fatal() {
+    let mut engine = Engine::default();
+    let scenario = paper_at(0.0).to_json().replace("\"mass\": 2", "\"mass\": -2");
+    engine.submit(Request::Analyze(Job { revision: 4, scenario, max_speed: 40.0, mode: CRITICAL }));
+    let replies = finish(&mut engine);
+    let [Reply { update: Update::Failed(failed), .. }] = &replies[..] else { panic!("{replies:?}") };
+    assert!(failed.report.reason.as_deref().is_some_and(|reason| reason.contains("platform.mass")));
+    engine.submit(job(5, &paper_at(0.0), CRITICAL));
+    assert!(finish(&mut engine).iter().any(|reply| matches!(reply.update, Update::Critical(_))));
+}
+
+#[test]
+fn a_mode_chosen_later_is_answered_without_a_new_analysis() {
+    let mut engine = Engine::default();
+    engine.submit(Request::Shape(CRITICAL));
+    assert!(finish(&mut engine).is_empty(), "nothing analysed, nothing to show");
+    engine.submit(job(1, &paper_at(1.0), CRITICAL));
+    let replies = finish(&mut engine);
+    let Some(Update::Pose(pose)) = replies.iter().map(|r| &r.update).find(|u| matches!(u, Update::Pose(_))) else {
+        panic!("no pose")
+    };
+    let wanted = pose.modes[5].eigenvalue;
+    for along_x in [false, true] {
+        // A guess nearby is enough.
+        let which = Which::Near([wanted[0] + 1e-4, wanted[1] + 1e-4]);
+        engine.submit(Request::Shape(ModeChoice { which, along_x }));
+        let replies = finish(&mut engine);
+        let [Reply { revision: 1, update: Update::Shape(shape) }] = &replies[..] else { panic!("{replies:?}") };
+        assert_eq!(shape.eigenvalue.map(f64::to_bits), wanted.map(f64::to_bits));
+        assert!(!shape.is_critical);
+        let still = |q: &[f64; 4]| if along_x { q[2].hypot(q[3]) } else { q[0].hypot(q[1]) };
+        let other = shape.displacement.iter().flatten().map(still).fold(0.0, f64::max);
+        assert!(other < 1e-12, "with secant stiffness x and y decouple: {other}");
+    }
+}
+
+#[test]
+fn messages_survive_their_way_as_bytes() {
+    let request = job(1, &paper_at(1.0), ModeChoice { which: Which::Near([-0.25, 1e300]), along_x: true });
+    let bytes = postcard::to_stdvec(&request).expect("bytes");
+    assert_eq!(postcard::from_bytes::<Request>(&bytes).expect("a request"), request);
+    let mut engine = Engine::default();
+    engine.submit(request);
+    for x in [1.0, 8.0] {
+        engine.submit(job(2, &paper_at(x), CRITICAL));
+        for reply in finish(&mut engine) {
+            let bytes = postcard::to_stdvec(&reply).expect("bytes");
+            assert_eq!(postcard::from_bytes::<Reply>(&bytes).expect("a reply"), reply);
+        }
+    }
+}

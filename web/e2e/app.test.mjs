@@ -1,0 +1,177 @@
+// The app in a browser: what is on show follows the pointer, and equals what the command line says.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { browserTest, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
+
+const ROOT = fileURLToPath(new URL("../../", import.meta.url));
+
+/** What the command line says to a scenario. */
+function commandLine(scenario) {
+    const folder = process.env.CARGO_TARGET_DIR ?? `${ROOT}target`;
+    const program = ["debug", "release"].map((profile) => `${folder}/${profile}/tautline`).find(existsSync);
+    assert.ok(program, "no native program to compare with: run cargo build first");
+    const input = JSON.stringify(scenario);
+    return JSON.parse(execFileSync(program, ["analyze", "-", "--json"], { input, encoding: "utf8", maxBuffer: 1e8 }));
+}
+
+function close(actual, expected, tolerance, what) {
+    assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual} in place of ${expected}`);
+}
+
+/** The analysis on show, with the scenario on show, once both belong together. */
+async function onShow(page, predicate = () => true) {
+    const analysis = await waitForAnalysis(page, (a) => a.current && predicate(a), { timeout: 30_000 });
+    return { analysis, scenario: await page.evaluate(() => window.tautline.scenario()) };
+}
+
+/** Drags what is at `from` to `to`, and does `beforeRelease` before it lets go. */
+async function drag(page, from, to, beforeRelease = () => {}) {
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    for (let i = 1; i <= 10; i++) {
+        await page.mouse.move(from[0] + ((to[0] - from[0]) * i) / 10, from[1] + ((to[1] - from[1]) * i) / 10);
+        await page.waitForTimeout(20);
+    }
+    await beforeRelease();
+    await page.mouse.up();
+}
+
+/** Finds the platform on the canvas by its cursor: the middle of the run of points where it is a hand. */
+async function findPlatform(page, y) {
+    const cursor = async (x) => {
+        await page.mouse.move(x, y);
+        await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+        return page.evaluate(() => getComputedStyle(document.getElementById("tautline-canvas")).cursor);
+    };
+    for (let x = 380; x < 940; x += 16) {
+        if ((await cursor(x)) !== "grab") continue;
+        let left = x;
+        while ((await cursor(left - 1)) === "grab") left--;
+        let right = x;
+        // The arrow's handle comes right after; the platform's is 40 points wide.
+        while (right - left < 40 && (await cursor(right + 1)) === "grab") right++;
+        return [(left + right) / 2, y];
+    }
+    throw new Error("no platform on the canvas");
+}
+
+browserTest("the paper's robot has its critical speed, and dragging the platform changes it", async ({ open }) => {
+    const page = await open();
+    await waitForStart(page);
+    const first = await onShow(page);
+    // Independent figures: docs/theory.md, reference numbers.
+    close(first.analysis.critical.speed, 11.299, 1e-3, "critical speed at x = 0");
+    assert.equal(first.analysis.eigenvalues.length, 148);
+    await screenshot(page, "app light");
+
+    const platform = await findPlatform(page, 400);
+    await drag(page, platform, [platform[0] + 60, platform[1]]);
+    const second = await onShow(page, (a) => a.revision > first.analysis.revision);
+    const moved = second.scenario.motion.position[0];
+    assert.ok(moved > 1 && moved < 6, `dragged to x = ${moved}`);
+    assert.notEqual(second.analysis.critical.speed, first.analysis.critical.speed);
+
+    // On to x = 6, with the scale that the first drag showed, the last points one by one.
+    const scale = 60 / moved;
+    const now = [platform[0] + 60, platform[1]];
+    let x = Math.round(platform[0] + 6 * scale);
+    await drag(page, now, [x, platform[1]], async () => {
+        for (let i = 0; i < 10; i++) {
+            await page.waitForTimeout(100);
+            const left = 6 - (await page.evaluate(() => window.tautline.scenario().motion.position[0]));
+            if (left === 0) break;
+            await page.mouse.move((x += Math.sign(left)), platform[1]);
+        }
+    });
+    const third = await onShow(page, (a) => a.revision > second.analysis.revision);
+    assert.deepEqual(third.scenario.motion.position, [6, 0]);
+    close(third.analysis.critical.speed, 10.0125, 1e-4, "critical speed at x = 6");
+    await screenshot(page, "app at x = 6");
+
+    const expected = commandLine(third.scenario);
+    close(third.analysis.critical.speed, expected.critical.speed, 1e-6, "page against command line");
+    assert.equal(third.analysis.critical.cable, expected.critical.cable);
+    const mirror = await page.locator("#tautline-summary").textContent();
+    assert.match(mirror, /^Critical speed 10\.01\d\d metres per second, flutter at /);
+});
+
+browserTest("an infeasible pose is told and recovered from", async ({ open }) => {
+    const page = await open();
+    await waitForStart(page);
+    await onShow(page);
+    const platform = await findPlatform(page, 400);
+    const far = [platform[0] + 230, platform[1]];
+    await drag(page, platform, far);
+    const told = await onShow(page, (a) => !a.feasible);
+    assert.match(told.analysis.reason, /cable 1 would have to push/);
+    assert.equal(told.analysis.critical, null);
+    assert.deepEqual(told.analysis.eigenvalues, []);
+    await screenshot(page, "app infeasible");
+
+    await drag(page, far, [platform[0] + 50, platform[1]]);
+    const back = await onShow(page, (a) => a.feasible);
+    close(back.analysis.critical.speed, commandLine(back.scenario).critical.speed, 1e-6, "page against command line");
+});
+
+browserTest("a typed Young's modulus changes the answer", async ({ open }) => {
+    const page = await open();
+    await waitForStart(page);
+    const before = await onShow(page);
+    // The value field of E, in the panel on the left.
+    await page.mouse.click(258, 180);
+    await page.keyboard.press("Control+A");
+    await page.keyboard.type("200");
+    await page.keyboard.press("Enter");
+    const after = await onShow(page, (a) => a.revision > before.analysis.revision);
+    close(after.scenario.cable.youngs_modulus, 200e6, 1e-3, "E");
+    assert.notEqual(after.analysis.critical.speed, before.analysis.critical.speed);
+    close(after.analysis.critical.speed, commandLine(after.scenario).critical.speed, 1e-6, "page against command line");
+});
+
+browserTest("scripts load scenarios, and hear why one is refused", async ({ open }) => {
+    const page = await open();
+    await waitForStart(page);
+    const { scenario } = await onShow(page);
+    const changed = { ...scenario, linearisation: "tangent", motion: { ...scenario.motion, position: [2, 0] } };
+    const current = await page.evaluate((json) => {
+        window.tautline.load(json);
+        return [window.tautline.analysis().current, window.tautline.scenario()];
+    }, JSON.stringify(changed));
+    assert.equal(current[0], false, "the old analysis must not pass for the new scenario's");
+    assert.deepEqual(current[1].motion.position, [2, 0]);
+    const { analysis } = await onShow(page);
+    // Reference case 7.
+    close(analysis.critical.speed, 10.67066, 1e-3, "critical speed, tangent, x = 2");
+
+    const refused = await page.evaluate((json) => {
+        try {
+            window.tautline.load(json);
+        } catch (error) {
+            return [error instanceof Error, error.message];
+        }
+        return [false, "accepted"];
+    }, JSON.stringify({ ...changed, platform: { mass: -2 }, gravity: "much" }));
+    assert.ok(refused[0], refused[1]);
+    assert.match(refused[1], /gravity/);
+    assert.deepEqual((await onShow(page)).scenario.motion.position, [2, 0], "the last good state stays");
+    const timings = await page.evaluate(() => window.tautline.timings());
+    assert.ok(timings.frame_ms > 0 && timings.analysis_ms > 0, JSON.stringify(timings));
+    console.log(`timings: frame ${timings.frame_ms.toFixed(1)} ms, analysis ${timings.analysis_ms.toFixed(0)} ms`);
+});
+
+for (const [name, options] of Object.entries({
+    "dark": { colorScheme: "dark" },
+    "phone": { viewport: { width: 360, height: 740 } },
+    "phone dark": { viewport: { width: 360, height: 740 }, colorScheme: "dark" },
+})) {
+    browserTest(`the answer is there on a screen of kind: ${name}`, async ({ open }) => {
+        const page = await open("", options);
+        await waitForStart(page);
+        const { analysis } = await onShow(page);
+        close(analysis.critical.speed, 11.299, 1e-3, "critical speed");
+        await page.waitForTimeout(300);
+        await screenshot(page, `app ${name}`);
+    });
+}

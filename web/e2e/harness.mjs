@@ -1,0 +1,202 @@
+// What the browser tests share: a server for dist/, a browser, and a test that fails on any error on the page.
+//
+//   browserTest("what it shows", async ({ open }) => {
+//       const page = await open("", { viewport: { width: 360, height: 640 }, colorScheme: "dark" });
+//       …
+//   });
+//
+// CHROMIUM names the browser's program, if it is not one of those below on PATH.
+import assert from "node:assert/strict";
+import { accessSync, constants, mkdirSync } from "node:fs";
+import { readFile } from "node:fs/promises";
+import { createServer } from "node:http";
+import path from "node:path";
+import { after, test } from "node:test";
+import { setTimeout as sleep } from "node:timers/promises";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+
+const ROOT = fileURLToPath(new URL("../../", import.meta.url));
+const DIST = path.join(ROOT, "dist");
+const PICTURES = path.join(ROOT, "target", "pictures");
+
+// Published pages rarely live at the root; this shows that every address is relative.
+const BASE = "/some/where/";
+
+const TYPES = {
+    ".css": "text/css",
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript",
+    ".json": "application/json",
+    ".svg": "image/svg+xml",
+    ".wasm": "application/wasm",
+    ".webmanifest": "application/manifest+json",
+};
+
+const FLAGS = [
+    "--no-sandbox",
+    // The page needs no network but ours.
+    "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+    // WebGL 2 without a graphics card.
+    "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+];
+
+function findChromium() {
+    if (process.env.CHROMIUM) return process.env.CHROMIUM;
+    for (const name of ["chromium", "chromium-browser", "google-chrome"]) {
+        for (const folder of (process.env.PATH ?? "").split(path.delimiter)) {
+            const program = path.join(folder, name);
+            try {
+                accessSync(program, constants.X_OK);
+                return program;
+            } catch { /* not here */ }
+        }
+    }
+    throw new Error("no Chromium on PATH: install it (on Debian: apt-get install chromium) or name it in CHROMIUM");
+}
+
+async function startServer() {
+    const server = createServer(async (request, response) => {
+        const { pathname } = new URL(request.url, "http://localhost");
+        let name = pathname.startsWith(BASE) ? pathname.slice(BASE.length) : "..";
+        if (name === "") name = "index.html";
+        const file = path.join(DIST, decodeURIComponent(name));
+        const type = TYPES[path.extname(file)];
+        // A type that is missing in TYPES is missing for good: the page must not depend on a guess.
+        if (!type || !file.startsWith(DIST + path.sep)) return response.writeHead(404).end();
+        try {
+            response.writeHead(200, { "content-type": type, "cache-control": "no-cache" }).end(await readFile(file));
+        } catch {
+            response.writeHead(404).end();
+        }
+    });
+    await new Promise((resolve, reject) => server.once("error", reject).listen(0, "127.0.0.1", resolve));
+    return server;
+}
+
+// One server and one browser for a test file, from its first test on.
+let shared;
+function share() {
+    shared ??= (async () => {
+        await readFile(path.join(DIST, "index.html")).catch(() => {
+            throw new Error("dist/ has no page: run web/serve.sh --build-only first");
+        });
+        const server = await startServer();
+        const browser = await chromium.launch({ executablePath: findChromium(), args: FLAGS });
+        return { browser, server, origin: `http://127.0.0.1:${server.address().port}` };
+    })();
+    return shared;
+}
+after(async () => {
+    const { browser, server } = (await shared?.catch(() => undefined)) ?? {};
+    await browser?.close();
+    server?.closeAllConnections();
+    server?.close();
+});
+
+/**
+ * A test with pages of its own. It fails on every console error, uncaught error and failed request of
+ * its pages, except those whose text matches one of `allow` (regular expressions). When it fails, what
+ * its pages showed is in target/pictures/.
+ */
+export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
+    test(name, { timeout }, async () => {
+        const { browser, origin } = await share();
+        const pages = [];
+        const contexts = [];
+        const errors = [];
+        const note = (text) => {
+            if (!allow.some((pattern) => pattern.test(text))) errors.push(text);
+        };
+
+        /**
+         * Opens the page (or, by a relative `url`, another file of dist/) and waits until it has loaded.
+         * `before(page)` runs ahead of the page's own scripts; further options go to Playwright's newContext.
+         */
+        async function open(url = "", { viewport = { width: 1280, height: 800 }, colorScheme = "light", hash = "", before, ...options } = {}) {
+            const context = await browser.newContext({ viewport, colorScheme, ...options });
+            contexts.push(context);
+            const page = await context.newPage();
+            pages.push(page);
+            page.on("console", (message) => {
+                if (message.type() === "error") note(`console: ${message.text()} (${message.location().url})`);
+            });
+            page.on("pageerror", (error) => note(`uncaught: ${error?.stack ?? error}`));
+            page.on("requestfailed", (request) => note(`failed: ${request.url()} ${request.failure()?.errorText}`));
+            await before?.(page);
+            const address = new URL(url, origin + BASE);
+            if (hash) address.hash = hash;
+            await page.goto(address.href);
+            return page;
+        }
+
+        try {
+            await body({ open, browser, origin: origin + BASE });
+            assert.deepEqual(errors, [], "the page reported errors");
+        } catch (error) {
+            for (const [i, page] of pages.entries()) {
+                await screenshot(page, `failed ${name} ${i + 1}`).catch(() => {});
+            }
+            if (errors.length && error.code !== "ERR_ASSERTION") error.message += `\nThe page reported:\n${errors.join("\n")}`;
+            throw error;
+        } finally {
+            for (const context of contexts) await context.close();
+        }
+    });
+}
+
+/** Waits until the app runs and has sized its canvas; fails with the page's own message if it says that it cannot. */
+export async function waitForStart(page, { timeout = 30_000 } = {}) {
+    await page.waitForFunction(() => {
+        const failure = document.getElementById("tautline-error");
+        if (!failure.hidden) throw new Error(`the page says: ${failure.textContent}`);
+        return document.getElementById("tautline-loading").hidden;
+    }, undefined, { timeout });
+    // The mark is set just before the first picture; give the browser two frames to show it.
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+/** Polls `window.tautline.analysis()` until `predicate` (run here, not in the page) accepts it; returns the analysis. */
+export async function waitForAnalysis(page, predicate = (analysis) => analysis.current, { timeout = 15_000 } = {}) {
+    const deadline = Date.now() + timeout;
+    let analysis;
+    for (;;) {
+        analysis = await page.evaluate(() => window.tautline?.analysis());
+        if (analysis && predicate(analysis)) return analysis;
+        if (Date.now() > deadline) {
+            throw new Error(`no such analysis within ${timeout} ms; the last one: ${JSON.stringify(analysis)?.slice(0, 500)}`);
+        }
+        await sleep(20);
+    }
+}
+
+/** Takes a picture of what the window shows, keeps it as target/pictures/NAME.png and returns the PNG's bytes. */
+export async function screenshot(page, name, options = {}) {
+    mkdirSync(PICTURES, { recursive: true });
+    const file = path.join(PICTURES, `${name.toLowerCase().replaceAll(/[^a-z0-9]+/g, "-")}.png`);
+    return page.screenshot({ path: file, ...options });
+}
+
+/**
+ * The colours in a PNG's bytes: how many there are, the most frequent one ("#rrggbb") and its share of
+ * the picture. The browser decodes it, on a page of its own, so that the page under test stays as it is.
+ */
+export async function colours(page, png) {
+    const blank = await page.context().newPage();
+    try {
+        return await blank.evaluate(async (base64) => {
+            const bytes = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+            const picture = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+            const context = new OffscreenCanvas(picture.width, picture.height).getContext("2d");
+            context.drawImage(picture, 0, 0);
+            const pixels = new Uint32Array(context.getImageData(0, 0, picture.width, picture.height).data.buffer);
+            const counts = new Map();
+            for (const pixel of pixels) counts.set(pixel, (counts.get(pixel) ?? 0) + 1);
+            const [main, most] = [...counts].reduce((a, b) => (b[1] > a[1] ? b : a));
+            const hex = [main, main >> 8, main >> 16].map((v) => (v & 255).toString(16).padStart(2, "0")).join("");
+            return { count: counts.size, main: `#${hex}`, share: most / pixels.length };
+        }, png.toString("base64"));
+    } finally {
+        await blank.close();
+    }
+}

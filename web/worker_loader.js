@@ -1,0 +1,6 @@
+// The script for `new Worker`. In place of Trunk's own, which hands the worker's version on to nobody:
+// these files keep their names from build to build, so the page may ask for `worker_loader.js?v=BUILD`,
+// and a cached worker of an older build never meets a newer page.
+"use strict";
+importScripts("./worker.js" + location.search);
+wasm_bindgen({ module_or_path: "./worker_bg.wasm" + location.search });
