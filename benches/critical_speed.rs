@@ -31,7 +31,7 @@ fn search(bencher: Bencher, method: Method, linearisation: Linearisation, elemen
 }
 
 mod critical_speed {
-    use super::*;
+    use super::{Bencher, Linearisation, Method, search};
 
     #[divan::bench(args = [10, 20, 40, 80])]
     fn structured_tangent(bencher: Bencher, elements: usize) {
@@ -56,7 +56,7 @@ mod critical_speed {
 }
 
 mod spectrum {
-    use super::*;
+    use super::{Bencher, Linearisation, SPEED, black_box, local, paper};
 
     #[divan::bench(args = [10, 20, 40], sample_count = 10)]
     fn structured_tangent(bencher: Bencher, elements: usize) {
