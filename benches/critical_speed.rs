@@ -30,37 +30,45 @@ fn search(bencher: Bencher, method: Method, linearisation: Linearisation, elemen
     bencher.bench(|| CriticalSearch::by(method, LIMIT).run(&local.vibration, &local.problem));
 }
 
-#[divan::bench(args = [10, 20, 40, 80])]
-fn critical_speed_structured_tangent(bencher: Bencher, elements: usize) {
-    search(bencher, Method::Structured, Linearisation::Tangent, elements);
+mod critical_speed {
+    use super::{Bencher, Linearisation, Method, search};
+
+    #[divan::bench(args = [10, 20, 40, 80])]
+    fn structured_tangent(bencher: Bencher, elements: usize) {
+        search(bencher, Method::Structured, Linearisation::Tangent, elements);
+    }
+
+    #[divan::bench(args = [10, 20, 40, 80])]
+    fn structured_secant(bencher: Bencher, elements: usize) {
+        search(bencher, Method::Structured, Linearisation::Secant, elements);
+    }
+
+    /// Longer meshes take minutes.
+    #[divan::bench(args = [10], sample_count = 3)]
+    fn dense_tangent(bencher: Bencher, elements: usize) {
+        search(bencher, Method::Dense, Linearisation::Tangent, elements);
+    }
+
+    #[divan::bench(args = [10, 20], sample_count = 3)]
+    fn dense_secant(bencher: Bencher, elements: usize) {
+        search(bencher, Method::Dense, Linearisation::Secant, elements);
+    }
 }
 
-#[divan::bench(args = [10, 20, 40, 80])]
-fn critical_speed_structured_secant(bencher: Bencher, elements: usize) {
-    search(bencher, Method::Structured, Linearisation::Secant, elements);
-}
+mod spectrum {
+    use super::{Bencher, Linearisation, SPEED, black_box, local, paper};
 
-/// Longer meshes take minutes.
-#[divan::bench(args = [10], sample_count = 3)]
-fn critical_speed_dense_tangent(bencher: Bencher, elements: usize) {
-    search(bencher, Method::Dense, Linearisation::Tangent, elements);
-}
+    #[divan::bench(args = [10, 20, 40], sample_count = 10)]
+    fn structured_tangent(bencher: Bencher, elements: usize) {
+        let local = local(&paper(Linearisation::Tangent, elements), 0.0);
+        bencher.bench(|| local.spectrum(black_box(SPEED)));
+    }
 
-#[divan::bench(args = [10, 20], sample_count = 3)]
-fn critical_speed_dense_secant(bencher: Bencher, elements: usize) {
-    search(bencher, Method::Dense, Linearisation::Secant, elements);
-}
-
-#[divan::bench(args = [10, 20, 40], sample_count = 10)]
-fn spectrum_structured_tangent(bencher: Bencher, elements: usize) {
-    let local = local(&paper(Linearisation::Tangent, elements), 0.0);
-    bencher.bench(|| local.spectrum(black_box(SPEED)));
-}
-
-#[divan::bench(args = [10, 20, 40], sample_count = 5)]
-fn spectrum_dense_tangent(bencher: Bencher, elements: usize) {
-    let local = local(&paper(Linearisation::Tangent, elements), 0.0);
-    bencher.bench(|| local.problem.spectrum(black_box(SPEED)));
+    #[divan::bench(args = [10, 20, 40], sample_count = 5)]
+    fn dense_tangent(bencher: Bencher, elements: usize) {
+        let local = local(&paper(Linearisation::Tangent, elements), 0.0);
+        bencher.bench(|| local.problem.spectrum(black_box(SPEED)));
+    }
 }
 
 /// One frame of a drag without the interface: statics, spectrum and critical speed of a pose.

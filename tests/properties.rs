@@ -6,7 +6,7 @@ use common::close;
 use common::hung::{self, Hung};
 use common::random::{config, mirrored, moving_robot, statics};
 use proptest::prelude::*;
-use tautline::mechanics::{CableShape, length_rates};
+use tautline::mechanics::{self, CableShape, length_rates};
 use tautline::robot::{Cable, TensionLaw, Vec2};
 use tautline::{Motion, Robot};
 
@@ -174,5 +174,26 @@ proptest! {
         for other in all.iter().filter(|at| !at_ours(at)) {
             prop_assert!(total(other) > total(&ours), "{ours:?} is not the tautest of {all:?}");
         }
+    }
+
+    /// Close to the least tension that carries a cable there is a slack shape near by, which Newton's method may find.
+    #[test]
+    fn the_taut_branch_is_kept_up_to_its_end((robot, motion) in moving_robot(2..25), exponent in -6.0..-0.5) {
+        let i = robot.prescribed().next().expect("a prescribed cable");
+        let least = Hung::of(&robot).least_tension(robot.cables[i].anchor - motion.position());
+        prop_assume!(least.is_some());
+        let (length, least) = least.unwrap();
+        let with_tension = |tension: f64| {
+            let mut spec = (*robot).clone();
+            spec.cables[i].tension = TensionLaw::Constant(tension);
+            let robot = Robot::new(spec).expect("a robot");
+            let found = mechanics::solve(&robot, motion.position());
+            found.map_or_else(|failure| failure.cables[i].clone(), |statics| Some(statics.cables[i].clone()))
+        };
+        let above = 10.0_f64.powf(exponent);
+        let shape = with_tension(least * (1.0 + above));
+        let found = shape.expect("a shape with somewhat more than the least tension").length;
+        prop_assert!(found < length, "{found} m is slack: the tension is least at {length} m");
+        prop_assert!(with_tension(least * (1.0 - 1e-6)).is_none(), "a shape with less than the least tension");
     }
 }

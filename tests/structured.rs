@@ -155,6 +155,7 @@ fn compare(local: &Local) -> Result<bool, Option<String>> {
                 let finer = a.speed < (b.speed / SCAN_STEP).floor() * SCAN_STEP;
                 finer || (a.speed - b.speed).abs() <= AGREEMENT && (a.kind, a.cable) == (b.kind, b.cable)
             }
+            // What is found has been confirmed above, by the growth rates on both sides of it.
             (_, Outcome::NoneUpTo(_)) => true,
             (Outcome::NoneUpTo(_), Outcome::Found(_)) => false,
         };

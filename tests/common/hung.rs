@@ -128,6 +128,20 @@ impl Hung {
         let lengths = taut.chain(slack).map(|relative| relative * chord.norm());
         lengths.map_while(|length| self.force(chord, length).map(|force| (length, force))).collect()
     }
+
+    /// The length at which the tension at the platform is least, and that tension: shorter cables are taut, longer ones
+    /// slack.
+    pub fn least_tension(&self, chord: Vec2) -> Option<(f64, f64)> {
+        let tension = |length: f64| self.force(chord, length).map(|force| force.norm());
+        let curve = self.curve(chord);
+        let least = (0..curve.len()).min_by(|&i, &j| curve[i].1.norm().total_cmp(&curve[j].1.norm()))?;
+        let (mut low, mut high) = (curve.get(least.checked_sub(1)?)?.0, curve.get(least + 1)?.0);
+        while high - low > 1e-9 * high {
+            let third = (high - low) / 3.0;
+            if tension(low + third)? < tension(high - third)? { high -= third } else { low += third }
+        }
+        Some((low, tension(low)?))
+    }
 }
 
 /// Where two cables pull with `load` together: the places on their curves, as numbers of segments.
