@@ -3,4 +3,6 @@
 // and a cached worker of an older build never meets a newer page.
 "use strict";
 importScripts("./worker.js" + location.search);
-wasm_bindgen({ module_or_path: "./worker_bg.wasm" + location.search });
+// Thrown outside the promise, so that the page hears of it.
+wasm_bindgen({ module_or_path: "./worker_bg.wasm" + location.search })
+    .catch((error) => setTimeout(() => { throw error; }));

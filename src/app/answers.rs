@@ -49,6 +49,8 @@ impl Answers {
                 self.failed = None;
                 self.pose = Some((revision, *pose));
             }
+            // The search of an older state may fail after a newer pose was served.
+            Update::Failed(_) if self.pose.as_ref().is_some_and(|(known, _)| *known > revision) => {}
             Update::Failed(failed) => {
                 self.complete = Some((revision, failed.report.clone()));
                 self.failed = Some((revision, failed));

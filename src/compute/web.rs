@@ -66,7 +66,10 @@ impl Compute {
         let on_error = {
             let shared = shared.clone();
             Closure::new(move |event: ErrorEvent| {
-                shared.borrow_mut().replies.push_back(broken(&event.message()));
+                // A script that could not be loaded gives a plain event, without a message.
+                let message = js_sys::Reflect::get(&event, &"message".into()).ok().and_then(|text| text.as_string());
+                let reply = broken(message.as_deref().unwrap_or("the worker could not be loaded"));
+                shared.borrow_mut().replies.push_back(reply);
                 wake();
             })
         };

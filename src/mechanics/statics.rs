@@ -93,7 +93,7 @@ pub enum Infeasible {
     /// The equilibrium cables cannot carry their own weight here.
     #[error("cable {} would go slack under its own weight", cable + 1)]
     GoesSlack {
-        /// The one of them with the smaller tension.
+        /// The one of them with the smaller tension for its length.
         cable: usize,
     },
 }
@@ -223,6 +223,13 @@ impl CableModel {
         r
     }
 
+    /// By how much the cable's end misses its anchor, in m. The walk starts at zero, so that a platform near the anchor
+    /// and far from the origin costs no digits.
+    fn miss<D: DualNum<Primitive = f64> + Copy>(&self, position: [D; 2], anchor: Vec2, t0: [D; 2], length: D) -> [D; 2] {
+        let end = self.walk([D::from(0.0); 2], t0, length, |_, _| {});
+        [end[0] + (position[0] - anchor.x), end[1] + (position[1] - anchor.y)]
+    }
+
     /// The force of the cable on the platform, t₀ − (0, μ g l/2).
     pub(super) fn platform_force<D: DualNum<Primitive = f64> + Copy>(&self, t0: [D; 2], length: D) -> [D; 2] {
         [t0[0], t0[1] - length * (0.5 * self.weight / self.elements as f64)]
@@ -238,9 +245,9 @@ impl CableModel {
         z: [D; 3],
     ) -> [D; 3] {
         let [tx, ty, length] = z;
-        let end = self.walk(position, [tx, ty], length, |_, _| {});
+        let [dx, dy] = self.miss(position, anchor, [tx, ty], length);
         let [fx, fy] = self.platform_force([tx, ty], length);
-        [end[0] - anchor.x, end[1] - anchor.y, (fx * fx + fy * fy).sqrt() - tension]
+        [dx, dy, (fx * fx + fy * fy).sqrt() - tension]
     }
 
     /// Residual of the equilibrium pair with the unknowns (t₀, L) of both: the distances of the ends from their
@@ -257,10 +264,10 @@ impl CableModel {
         residual[5] = -load[1];
         for (i, anchor) in anchors.into_iter().enumerate() {
             let (t0, length) = ([z[3 * i], z[3 * i + 1]], z[3 * i + 2]);
-            let end = self.walk(position, t0, length, |_, _| {});
+            let miss = self.miss(position, anchor, t0, length);
             let force = self.platform_force(t0, length);
             for j in 0..2 {
-                residual[2 * i + j] = end[j] - anchor[j];
+                residual[2 * i + j] = miss[j];
                 residual[4 + j] += force[j];
             }
         }
@@ -362,8 +369,10 @@ fn pair(robot: &Robot, position: Vec2, load: Vec2) -> Result<[(Vec2, f64); 2], S
     };
     let z = turn_weight_on(start, &scale, residual, |z| z[2] > 0.0 && z[5] > 0.0).map_err(|stop| match stop {
         Stop::Fold { last } => {
-            let tension = |i: usize| f64::hypot(last[i], last[i + 1]);
-            Infeasible::GoesSlack { cable: if tension(0) < tension(3) { a } else { b } }.into()
+            // The slacker one: the smaller tension for its length.
+            let tension = |i: usize| Vec2::from(cable.platform_force([last[i], last[i + 1]], last[i + 2])).norm();
+            let slack = if tension(0) / last[2] < tension(3) / last[5] { a } else { b };
+            Infeasible::GoesSlack { cable: slack }.into()
         }
         Stop::Failed => StaticsError::NotConverged { cable: a },
     })?;

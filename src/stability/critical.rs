@@ -156,11 +156,16 @@ impl CriticalSearch {
         let threshold = threshold(problem);
         if growth_rate > threshold {
             let before = self.samples[self.samples.len() - 2].speed;
-            // Without damping, what grows at the first step has grown from rest on.
-            let from_rest = threshold > 0.0 && before == 0.0;
-            let critical = if from_rest { 0.0 } else { refine(&mut spectrum, threshold, before, speed)? };
+            // Without damping nearly everything that grows at the first step has grown from rest on: look just above it.
+            let near_zero = NEAR_ZERO * SCAN_STEP;
+            let undamped = threshold > 0.0 && before == 0.0;
+            let critical = if undamped && spectrum(near_zero)?.growth_rate() > threshold {
+                0.0
+            } else {
+                refine(&mut spectrum, threshold, if undamped { near_zero } else { before }, speed)?
+            };
             // Undamped, every real part is zero at rest: the mode that grows is seen just above.
-            let seen_at = if critical == 0.0 { NEAR_ZERO * SCAN_STEP } else { critical };
+            let seen_at = if critical == 0.0 { near_zero } else { critical };
             let eigenvalue = spectrum(seen_at)?.rightmost();
             let mode = mode(vibration, seen_at, eigenvalue, Polarisation::default());
             let kind = if eigenvalue.im > ROUNDING * problem.scale() { Kind::Flutter } else { Kind::Divergence };

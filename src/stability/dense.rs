@@ -141,7 +141,8 @@ fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let size = matrix.nrows();
     // The iteration may stall on the diagonal's zeros, since it measures what it neglects against the diagonal. With
     // the diagonal moved to one it measures against the norm, as backward stability asks for.
-    [0.0, 1.0].into_iter().find_map(|shift| {
+    // Heavy stiffness damping makes the norm larger than one.
+    [0.0, 1.0, matrix.amax()].into_iter().find_map(|shift| {
         let shifted = matrix + DMatrix::from_diagonal_element(size, size, shift);
         let schur = Schur::try_new(shifted, f64::EPSILON, ITERATIONS_PER_EIGENVALUE * size)?;
         Some(schur.complex_eigenvalues().iter().map(|s| s - shift).collect())

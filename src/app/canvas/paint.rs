@@ -8,6 +8,9 @@ use crate::app::theme;
 /// Points between the platform's middle and the arrow's start; also what the arrow's handle is away at rest.
 pub const ARROW_GAP: f32 = 26.0;
 
+/// Longer lines than this, in points, are not dashed.
+const LONGEST_DASHED: f32 = 1e4;
+
 /// Draws everything but the handles.
 pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
     painter.rect_filled(view.rect, 0.0, visuals.extreme_bg_color);
@@ -16,7 +19,13 @@ pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
         if cable.nodes.is_empty() {
             // No shape: the straight line, dashed, so that it reads as missing.
             let line = [view.pos_in_ui(scene.platform), view.pos_in_ui(cable.anchor)];
-            painter.extend(Shape::dashed_line(&line, Stroke::new(1.5, visuals.weak_text_color()), 6.0, 6.0));
+            let stroke = Stroke::new(1.5, visuals.weak_text_color());
+            // Far outside the canvas the dashes would be without number.
+            if (line[1] - line[0]).length() < LONGEST_DASHED {
+                painter.extend(Shape::dashed_line(&line, stroke, 6.0, 6.0));
+            } else if line[0].is_finite() {
+                painter.line_segment(line, stroke);
+            }
         }
         if cable.marked {
             let colour = theme::warning(visuals).gamma_multiply(0.30);
