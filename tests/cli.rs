@@ -263,3 +263,13 @@ fn a_closed_pipe_is_no_fault() {
     let output = process.wait_with_output().unwrap();
     assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap().as_str()), (Some(0), ""));
 }
+
+#[test]
+fn both_methods_find_the_same_critical_speed() {
+    let by = |method: &str| {
+        let report = analyze(&at(2.0), &["--method", method]);
+        report["critical"]["speed"].as_f64().unwrap()
+    };
+    let (structured, dense) = (by("structured"), by("dense"));
+    assert!((structured - dense).abs() < 1e-6, "{structured} {dense}");
+}

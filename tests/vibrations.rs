@@ -11,7 +11,7 @@ use common::{close, largest, same_multiset};
 use nalgebra::{Complex, DVector};
 use proptest::prelude::*;
 use tautline::robot::Damping;
-use tautline::stability::{CriticalSearch, Mode, Outcome, Polarisation, Sample, mode};
+use tautline::stability::{CriticalSearch, Method, Mode, Outcome, Polarisation, Sample, mode};
 use tautline::{Local, Motion, Robot};
 
 type C64 = Complex<f64>;
@@ -101,7 +101,7 @@ proptest! {
 
 /// The search for the critical speed up to `limit` with the growth rates on its way.
 fn search(local: &Local, limit: f64) -> (Outcome, Vec<Sample>) {
-    let mut search = CriticalSearch::new(limit);
+    let mut search = CriticalSearch::by(Method::Dense, limit);
     loop {
         if let Some(outcome) = search.advance(&local.vibration, &local.problem).expect("eigenvalues") {
             return (outcome, search.samples().to_vec());

@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use crate::cli::{Answer, read_scenario, text};
 use crate::scenario::Report;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
+use crate::stability::Method;
 
 /// Analyze a scenario: static shape, stability at its speed, critical speed.
 ///
@@ -22,6 +23,26 @@ pub(super) struct Args {
     /// Search for the critical speed up to this speed, in m/s.
     #[arg(long, value_name = "V", default_value_t = DEFAULT_MAX_SPEED, value_parser = speed, allow_hyphen_values = true)]
     max_speed: f64,
+    /// How to search for it.
+    #[arg(long, value_enum, default_value_t = MethodArg::Structured)]
+    method: MethodArg,
+}
+
+#[derive(Clone, Copy, Debug, clap::ValueEnum)]
+enum MethodArg {
+    /// Along the cables, in milliseconds; by the dense scan where that leaves doubt.
+    Structured,
+    /// By all eigenvalues at speeds 0.1 m/s apart.
+    Dense,
+}
+
+impl From<MethodArg> for Method {
+    fn from(method: MethodArg) -> Self {
+        match method {
+            MethodArg::Structured => Self::Structured,
+            MethodArg::Dense => Self::Dense,
+        }
+    }
 }
 
 fn speed(text: &str) -> Result<f64, String> {
@@ -33,7 +54,8 @@ pub(super) fn run(args: &Args) -> Answer {
     let scenario = read_scenario(&args.file)?;
     let (robot, motion) = scenario.to_robot().map_err(|faults| vec![faults.to_string()])?;
     let mut progress = Progress::new(args.max_speed);
-    let report = Report::analyze_watched(&robot, &motion, args.max_speed, |speed| progress.show(speed));
+    let report =
+        Report::analyze_watched(&robot, &motion, args.max_speed, args.method.into(), |speed| progress.show(speed));
     progress.clear();
     if args.json {
         let json = serde_json::to_string(&report).map_err(|error| vec![error.to_string()])?;

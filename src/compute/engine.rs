@@ -24,9 +24,16 @@ use crate::study::Local;
 const SLICE: Duration = Duration::from_millis(8);
 /// A search that has run for longer is dropped for a newer pose.
 const PATIENCE: Duration = Duration::from_millis(400);
-/// The curve of growth rates goes on to this multiple of the critical speed and of today's, in this many points.
+/// A curve of growth rates that has taken longer is dropped for a newer pose; others are finished, so that a drag shows
+/// curves.
+const CURVE_PATIENCE: Duration = Duration::from_millis(100);
+/// The curve of growth rates goes on to this multiple of the critical speed and of today's.
 const CURVE_MARGIN: f64 = 1.3;
-const CURVE_POINTS: u32 = 24;
+/// The curve's points where the search has left none, and beyond those that it has left.
+const CURVE_POINTS: u32 = 60;
+const CURVE_POINTS_BEYOND: u32 = 24;
+/// The curve is sent in parts of this many points.
+const CURVE_PART: usize = 15;
 
 /// Serves requests in slices. Feed it with [`Engine::submit`], then call [`Engine::work`] until it returns `None`.
 #[derive(Default)]
@@ -55,7 +62,7 @@ struct Pose {
 
 enum Stage {
     Searching { search: CriticalSearch, since: Instant },
-    Curve { from: f64, next: u32, to: f64, points: Vec<[f64; 2]> },
+    Curve { from: f64, next: u32, to: f64, last: u32, points: Vec<[f64; 2]>, since: Instant },
     Done,
 }
 
@@ -90,7 +97,7 @@ impl Engine {
         };
         let finished = match &running.stage {
             Stage::Searching { since, .. } => overtaken && since.elapsed() > PATIENCE,
-            Stage::Curve { .. } => overtaken,
+            Stage::Curve { since, .. } => overtaken && since.elapsed() > CURVE_PATIENCE,
             Stage::Done => true,
         };
         if finished {
@@ -127,6 +134,16 @@ impl Stage {
     fn searching(limit: f64) -> Self {
         Self::Searching { search: CriticalSearch::new(limit), since: Instant::now() }
     }
+
+    /// The curve of growth rates beyond what has been scanned up to the speed `from`, at zero where nothing has.
+    fn curve(from: f64, to: f64) -> Self {
+        let (points, since) = (Vec::new(), Instant::now());
+        match from {
+            _ if to <= from => Self::Done,
+            0.0 => Self::Curve { from, next: 0, to, last: CURVE_POINTS, points, since },
+            _ => Self::Curve { from, next: 1, to, last: CURVE_POINTS_BEYOND, points, since },
+        }
+    }
 }
 
 impl Pose {
@@ -145,7 +162,7 @@ impl Pose {
                 ..failed(failure_sentence(&failure), motion.speed())
             })
         })?;
-        let spectrum = local.problem.spectrum(motion.speed());
+        let spectrum = local.spectrum(motion.speed());
         let spectrum = spectrum.map_err(|error| Box::new(failed(sentence(&error.to_string()), motion.speed())))?;
         Ok(Self {
             revision: job.revision,
@@ -243,7 +260,7 @@ impl Pose {
                     return Ok(Vec::new());
                 };
                 let curve: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
-                let from = search.searched_up_to();
+                let scanned = search.searched_up_to();
                 let mut report = Report::new(&self.local, &self.spectrum);
                 report.set_critical(&outcome, self.limit);
                 let mut replies = vec![self.reply(Update::Critical(CriticalAnswer {
@@ -252,29 +269,38 @@ impl Pose {
                     curve,
                     elapsed_ms: 1e3 * self.submitted.elapsed().as_secs_f64(),
                 }))];
-                self.stage = Stage::Done;
-                if let Outcome::Found(critical) = &outcome {
-                    if self.choice.which == Which::Critical {
-                        let mode = self.mode(critical.speed, critical.eigenvalue);
-                        let shape = ModeShape::new(&mode, critical.speed, true);
-                        replies.push(self.reply(Update::Shape(Box::new(shape))));
+                let mut end = scanned;
+                match &outcome {
+                    Outcome::Found(critical) => {
+                        if self.choice.which == Which::Critical {
+                            let mode = self.mode(critical.speed, critical.eigenvalue);
+                            let shape = ModeShape::new(&mode, critical.speed, true);
+                            replies.push(self.reply(Update::Shape(Box::new(shape))));
+                        }
+                        end = CURVE_MARGIN * critical.speed.max(self.motion.speed()).max(scanned);
                     }
-                    let to = CURVE_MARGIN * critical.speed.max(self.motion.speed()).max(from);
-                    self.stage = Stage::Curve { from, next: 1, to, points: Vec::new() };
-                } else if self.choice.which == Which::Critical {
-                    replies.extend(self.shape());
+                    Outcome::NoneUpTo(limit) => {
+                        if self.choice.which == Which::Critical {
+                            replies.extend(self.shape());
+                        }
+                        end = end.max(*limit);
+                    }
                 }
+                self.stage = Stage::curve(scanned, end);
                 Ok(replies)
             }
-            Stage::Curve { from, next, to, points } => {
-                let speed = *from + (*to - *from) * f64::from(*next) / f64::from(CURVE_POINTS);
-                points.push([speed, self.local.problem.spectrum(speed)?.growth_rate()]);
+            Stage::Curve { from, next, to, last, points, .. } => {
+                let speed = *from + (*to - *from) * f64::from(*next) / f64::from(*last);
+                points.push([speed, self.local.spectra.spectrum(&self.local.problem, speed)?.growth_rate()]);
                 *next += 1;
-                if *next <= CURVE_POINTS {
+                let complete = next > last;
+                if points.len() < CURVE_PART && !complete {
                     return Ok(Vec::new());
                 }
                 let points = std::mem::take(points);
-                self.stage = Stage::Done;
+                if complete {
+                    self.stage = Stage::Done;
+                }
                 Ok(vec![self.reply(Update::Curve(points))])
             }
         }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError};
 use crate::robot::{Motion, Robot};
-use crate::stability::{Critical, CriticalSearch, Kind, NotConverged, Outcome, Spectrum};
+use crate::stability::{Critical, CriticalSearch, Kind, Method, NotConverged, Outcome, Spectrum};
 use crate::study::Local;
 
 /// The name and version of the format.
@@ -146,15 +146,25 @@ impl Report {
 
     /// The whole analysis in one go, the critical speed searched up to `limit` (m/s).
     pub fn analyze(robot: &Robot, motion: &Motion, limit: f64) -> Self {
-        Self::analyze_watched(robot, motion, limit, |_| {})
+        Self::analyze_watched(robot, motion, limit, Method::default(), |_| {})
     }
 
-    /// The same, calling `watch` with the speed (m/s) up to which the search has come, again and again.
-    pub fn analyze_watched(robot: &Robot, motion: &Motion, limit: f64, mut watch: impl FnMut(f64)) -> Self {
+    /// The same by `method`, calling `watch` with the speed (m/s) up to which the search has come, again and again.
+    pub fn analyze_watched(
+        robot: &Robot,
+        motion: &Motion,
+        limit: f64,
+        method: Method,
+        mut watch: impl FnMut(f64),
+    ) -> Self {
         let outcome = Local::new(robot, motion).map_err(|failure| failure_sentence(&failure)).and_then(|local| {
             let mut complete = || -> Result<Self, NotConverged> {
-                let mut report = Self::new(&local, &local.problem.spectrum(motion.speed())?);
-                let mut search = CriticalSearch::new(limit);
+                let spectrum = match method {
+                    Method::Structured => local.spectrum(motion.speed())?,
+                    Method::Dense => local.problem.spectrum(motion.speed())?,
+                };
+                let mut report = Self::new(&local, &spectrum);
+                let mut search = CriticalSearch::by(method, limit);
                 let outcome = loop {
                     watch(search.searched_up_to());
                     if let Some(outcome) = search.advance(&local.vibration, &local.problem)? {

@@ -1,6 +1,7 @@
 //! The critical speed: the smallest speed at which an eigenvalue's real part becomes positive.
 //!
-//! The growth rate against speed is not monotone, so the *first* crossing is wanted: the speed is raised in steps to
+//! The growth rate against speed is not monotone, so the *first* crossing is wanted. The structured search finds it
+//! without a scan. Where that leaves doubt, and without damping, the speed is raised in steps to
 //! the first unstable one, as in the paper, and the crossing before it is then refined. A crossing and its return
 //! within one step are not seen; docs/theory.md section 8 says so.
 
@@ -9,7 +10,8 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 
 use crate::mechanics::Vibration;
-use crate::stability::{Eigenproblem, NotConverged, Polarisation, mode};
+use crate::stability::crossing::{Search, first_crossing};
+use crate::stability::{Eigenproblem, NotConverged, Polarisation, Spectra, Spectrum, mode};
 
 /// The paper's step of the speed, in m/s.
 pub const SCAN_STEP: f64 = 0.1;
@@ -70,10 +72,24 @@ pub enum Outcome {
     NoneUpTo(f64),
 }
 
+/// How the critical speed is searched for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// By structure, at a cost that grows with the number of elements; where that leaves doubt, by a
+    /// scan like the dense one, with the eigenvalues of [`Spectra`].
+    #[default]
+    Structured,
+    /// By all eigenvalues at speeds [`SCAN_STEP`] apart, then bisection.
+    Dense,
+}
+
 /// A search for the critical speed of one problem in slices, so that it can be watched and abandoned.
 #[derive(Debug)]
 pub struct CriticalSearch {
     limit: f64,
+    method: Method,
+    /// The structured method's eigenvalues for the scan, once the search without one has been in doubt.
+    spectra: Option<Box<Spectra>>,
     steps: u64,
     samples: Vec<Sample>,
 }
@@ -81,10 +97,15 @@ pub struct CriticalSearch {
 impl CriticalSearch {
     /// A search from rest to `limit` (m/s).
     pub fn new(limit: f64) -> Self {
-        Self { limit, steps: 0, samples: Vec::new() }
+        Self::by(Method::default(), limit)
     }
 
-    /// The speeds looked at so far, in rising order.
+    /// The same by `method`.
+    pub fn by(method: Method, limit: f64) -> Self {
+        Self { limit, method, spectra: None, steps: 0, samples: Vec::new() }
+    }
+
+    /// The speeds the dense scan has looked at so far, in rising order; none where the structured search has answered.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
     }
@@ -106,14 +127,26 @@ impl CriticalSearch {
         }
     }
 
-    /// Looks at the next speed of the same `vibration`, whose `problem` is given with it; `None` while the search
-    /// goes on.
+    /// Searches by structure, all at once, or looks at the scan's next speed, of the same `vibration`, whose `problem`
+    /// is given with it; `None` while the search goes on.
     ///
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
     pub fn advance(&mut self, vibration: &Vibration, problem: &Eigenproblem) -> Result<Option<Outcome>, NotConverged> {
+        if self.method == Method::Structured && self.spectra.is_none() {
+            let outcome = structured(vibration, self.limit);
+            if outcome.is_none() {
+                self.spectra = Some(Box::new(Spectra::new(vibration, problem)));
+            }
+            return Ok(outcome);
+        }
+        let spectra = &mut self.spectra;
+        let mut spectrum = |speed: f64| match spectra {
+            Some(spectra) => spectra.spectrum(problem, speed),
+            None => problem.spectrum(speed),
+        };
         let speed = (self.steps as f64 * SCAN_STEP).min(self.limit);
-        let growth_rate = problem.spectrum(speed)?.growth_rate();
+        let growth_rate = spectrum(speed)?.growth_rate();
         self.steps += 1;
         self.samples.push(Sample { speed, growth_rate });
         // At rest nothing grows: without damping the real parts are zero but for rounding.
@@ -125,10 +158,35 @@ impl CriticalSearch {
             let before = self.samples[self.samples.len() - 2].speed;
             // Without damping, what grows at the first step has grown from rest on.
             let from_rest = threshold > 0.0 && before == 0.0;
-            let critical = if from_rest { 0.0 } else { refine(problem, before, speed)? };
-            return describe(vibration, problem, critical).map(|c| Some(Outcome::Found(c)));
+            let critical = if from_rest { 0.0 } else { refine(&mut spectrum, threshold, before, speed)? };
+            // Undamped, every real part is zero at rest: the mode that grows is seen just above.
+            let seen_at = if critical == 0.0 { NEAR_ZERO * SCAN_STEP } else { critical };
+            let eigenvalue = spectrum(seen_at)?.rightmost();
+            let mode = mode(vibration, seen_at, eigenvalue, Polarisation::default());
+            let kind = if eigenvalue.im > ROUNDING * problem.scale() { Kind::Flutter } else { Kind::Divergence };
+            let critical = Critical { speed: critical, eigenvalue, kind, cable: mode.responsible_cable() };
+            return Ok(Some(Outcome::Found(critical)));
         }
         Ok((speed >= self.limit).then_some(Outcome::NoneUpTo(self.limit)))
+    }
+}
+
+/// The first crossing by structure, up to `limit` (m/s), without a scan; `None` where the dense scan must decide: in
+/// doubt, and without damping.
+pub fn structured(vibration: &Vibration, limit: f64) -> Option<Outcome> {
+    let damping = vibration.damping;
+    if damping.alpha == 0.0 && damping.beta == 0.0 {
+        return None;
+    }
+    match first_crossing(vibration, limit) {
+        Search::Doubt => None,
+        Search::NoneUpTo => Some(Outcome::NoneUpTo(limit)),
+        Search::Crossing { omega, speed } => {
+            let eigenvalue = Complex::new(0.0, omega);
+            let mode = mode(vibration, speed, eigenvalue, Polarisation::default());
+            let kind = if omega > 0.0 { Kind::Flutter } else { Kind::Divergence };
+            Some(Outcome::Found(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() }))
+        }
     }
 }
 
@@ -139,26 +197,20 @@ fn threshold(problem: &Eigenproblem) -> f64 {
 }
 
 /// The crossing between a stable and an unstable speed, by bisection.
-fn refine(problem: &Eigenproblem, mut stable: f64, mut unstable: f64) -> Result<f64, NotConverged> {
-    let threshold = threshold(problem);
+fn refine(
+    spectrum: &mut impl FnMut(f64) -> Result<Spectrum, NotConverged>,
+    threshold: f64,
+    mut stable: f64,
+    mut unstable: f64,
+) -> Result<f64, NotConverged> {
     // Far from zero two neighbouring numbers may be further apart than that.
     while unstable - stable > REFINED_TO.max(4.0 * f64::EPSILON * unstable) {
         let middle = 0.5 * (stable + unstable);
-        if problem.spectrum(middle)?.growth_rate() > threshold {
+        if spectrum(middle)?.growth_rate() > threshold {
             unstable = middle;
         } else {
             stable = middle;
         }
     }
     Ok(0.5 * (stable + unstable))
-}
-
-/// The mode that crosses at the critical speed `speed`.
-fn describe(vibration: &Vibration, problem: &Eigenproblem, speed: f64) -> Result<Critical, NotConverged> {
-    // Undamped, every real part is zero at rest: the mode that grows is seen just above.
-    let seen_at = if speed == 0.0 { NEAR_ZERO * SCAN_STEP } else { speed };
-    let eigenvalue = problem.spectrum(seen_at)?.rightmost();
-    let mode = mode(vibration, seen_at, eigenvalue, Polarisation::default());
-    let kind = if eigenvalue.im > ROUNDING * problem.scale() { Kind::Flutter } else { Kind::Divergence };
-    Ok(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() })
 }

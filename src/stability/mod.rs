@@ -1,11 +1,18 @@
 //! Eigenvalues, mode shapes and the critical speed of a [`crate::mechanics::Vibration`].
 
+mod aberth;
+mod bounds;
+mod characteristic;
 mod critical;
+mod crossing;
 mod dense;
+mod jet;
 mod modes;
 mod spectrum;
 
-pub use critical::{Critical, CriticalSearch, Kind, Outcome, SCAN_STEP, Sample};
+pub use aberth::Spectra;
+pub use characteristic::{Characteristic, LogDeterminant};
+pub use critical::{Critical, CriticalSearch, Kind, Method, Outcome, SCAN_STEP, Sample, structured};
 pub use dense::Eigenproblem;
 pub use modes::{Mode, Polarisation, mode};
 pub use spectrum::{ModeValue, Spectrum};

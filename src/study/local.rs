@@ -2,7 +2,7 @@
 
 use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration};
 use crate::robot::{Motion, Robot};
-use crate::stability::{CriticalSearch, Eigenproblem, NotConverged, Outcome};
+use crate::stability::{CriticalSearch, Eigenproblem, NotConverged, Outcome, Spectra, Spectrum};
 
 /// Statics, motion and the small-vibration problem at one pose.
 #[derive(Clone, Debug)]
@@ -15,6 +15,8 @@ pub struct Local {
     pub vibration: Vibration,
     /// The same, reduced for the eigenvalue solver.
     pub problem: Eigenproblem,
+    /// The same, prepared for eigenvalues by structure.
+    pub spectra: Spectra,
 }
 
 impl Local {
@@ -33,9 +35,20 @@ impl Local {
         };
         let vibration = Vibration::new(robot, &statics, &rates);
         match Eigenproblem::new(&vibration) {
-            Ok(problem) => Ok(Self { statics, rates, vibration, problem }),
+            Ok(problem) => {
+                let spectra = Spectra::new(&vibration, &problem);
+                Ok(Self { statics, rates, vibration, problem, spectra })
+            }
             Err(_) => Err(failed(statics)),
         }
+    }
+
+    /// All eigenvalues at `speed` (m/s), by structure; by the dense solver where that leaves doubt.
+    ///
+    /// # Errors
+    /// [`NotConverged`] where the eigenvalue problem could not be solved.
+    pub fn spectrum(&self, speed: f64) -> Result<Spectrum, NotConverged> {
+        self.spectra.clone().spectrum(&self.problem, speed)
     }
 
     /// The critical speed, searched up to `limit` (m/s).

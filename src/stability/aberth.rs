@@ -1,0 +1,254 @@
+//! All eigenvalues at one speed by the Ehrlich–Aberth iteration on the characteristic function.
+//!
+//! With g = ∂ ln det Q/∂λ = Σ 1/(λ − λⱼ), each estimate z moves by −1/(g(z) − Σ 1/(z − zₖ)), the sum over all other
+//! estimates: Newton's method on what remains once the others are divided out, so that no two estimates go to the same
+//! eigenvalue. At rest the eigenvalues are those of λ² + (α + β ω̂²) λ + ω̂² = 0 with the undamped frequencies ω̂; a
+//! speed's eigenvalues start from those of the speed before. docs/theory.md section 11.
+
+use nalgebra::Complex;
+
+use super::characteristic::Characteristic;
+use crate::mechanics::Vibration;
+use crate::stability::{Eigenproblem, NotConverged, Spectrum};
+
+type C64 = Complex<f64>;
+
+/// Sweeps over all estimates before the iteration is given up.
+const SWEEPS: usize = 40;
+/// An estimate has converged when its step is this part of it, or [`ROUNDING`] of the largest frequency.
+const CONVERGED: f64 = 1e-9;
+const ROUNDING: f64 = 1e-15;
+/// A step is at most this part of the estimate.
+const LARGEST_STEP: f64 = 0.5;
+/// By this part of the distance to the nearest other one estimates are moved off the real axis and off each other where pairs are not kept together.
+const SPREAD: f64 = 0.1;
+/// After so many failures the dense solver is asked at once.
+const PATIENCE: usize = 3;
+/// The sums over the eigenvalues must agree with what they are known to be to this part of their terms' sum.
+const AGREEMENT: f64 = 1e-7;
+
+/// A solver for the spectra of one problem at one speed after the other.
+#[derive(Clone, Debug)]
+pub struct Spectra {
+    function: Characteristic,
+    /// ω̂² of all undamped modes, in 1/s².
+    squares: Vec<f64>,
+    /// −Σ λⱼ at rest in 1/s, and what a unit of speed adds to it, in 1/m.
+    damping: [f64; 2],
+    alpha: f64,
+    beta: f64,
+    scale: f64,
+    multiplicity: usize,
+    /// The last spectrum.
+    last: Option<Estimates>,
+    /// How often the dense solver had to help.
+    failures: usize,
+}
+
+/// Estimates of all eigenvalues.
+#[derive(Clone, Debug)]
+struct Estimates {
+    /// All of them; of a pair the one with positive imaginary part alone where `paired`.
+    values: Vec<C64>,
+    paired: bool,
+}
+
+impl Spectra {
+    /// Prepares the solver for the same problem in both its forms.
+    pub fn new(vibration: &Vibration, problem: &Eigenproblem) -> Self {
+        let squares = problem.undamped_squares();
+        let (alpha, beta) = (vibration.damping.alpha, vibration.damping.beta);
+        let at_rest = squares.iter().map(|square| alpha + beta * square).sum();
+        Self {
+            function: Characteristic::new(vibration),
+            damping: [at_rest, problem.transfer_trace()],
+            squares,
+            alpha,
+            beta,
+            scale: problem.scale(),
+            multiplicity: if vibration.isotropic { 2 } else { 1 },
+            last: None,
+            failures: 0,
+        }
+    }
+
+    /// All eigenvalues at `speed` (m/s), by the dense solver where the iteration leaves doubt.
+    ///
+    /// # Errors
+    /// [`NotConverged`] where neither solver has converged.
+    pub fn spectrum(&mut self, problem: &Eigenproblem, speed: f64) -> Result<Spectrum, NotConverged> {
+        if self.failures < PATIENCE {
+            if let Some(spectrum) = self.iterate(speed) {
+                return Ok(spectrum);
+            }
+            self.failures += 1;
+        }
+        problem.spectrum(speed)
+    }
+
+    /// The same without the dense solver; `None` where the iteration does not converge to as many eigenvalues as
+    /// there are.
+    pub fn iterate(&mut self, speed: f64) -> Option<Spectrum> {
+        let found = self.last.take().and_then(|near| self.solve(near, speed));
+        let found = found.or_else(|| self.solve(self.at_rest(), speed)).or_else(|| {
+            let apart = self.at_rest().unpaired();
+            self.solve(apart, speed)
+        })?;
+        let values = found.all();
+        self.last = Some(found);
+        Spectrum::new(speed, values, self.multiplicity).ok()
+    }
+
+    /// The eigenvalues at rest, in pairs where no mode is overdamped.
+    fn at_rest(&self) -> Estimates {
+        let mut values = Vec::with_capacity(2 * self.squares.len());
+        let mut paired = true;
+        for square in &self.squares {
+            let half = 0.5 * (self.alpha + self.beta * square);
+            let discriminant = half * half - square;
+            if discriminant < 0.0 {
+                values.push(C64::new(-half, (-discriminant).sqrt()));
+            } else {
+                // Both without cancellation: their product is ω̂².
+                let larger = half + discriminant.sqrt();
+                values.extend([C64::new(-larger, 0.0), C64::new(-square / larger, 0.0)]);
+                paired = false;
+            }
+        }
+        let estimates = Estimates { values, paired: true };
+        if paired { estimates } else { estimates.unpaired() }
+    }
+
+    /// Iterates from `estimates` to the eigenvalues at `speed`.
+    fn solve(&self, mut estimates: Estimates, speed: f64) -> Option<Estimates> {
+        let count = estimates.values.len();
+        let mut converged = vec![false; count];
+        for _ in 0..SWEEPS {
+            for (j, done) in converged.iter_mut().enumerate().filter(|(_, done)| !**done) {
+                let z = estimates.values[j];
+                let mut step = (self.function.at(z, speed).by_lambda - estimates.others(j)).inv();
+                if !(step.re.is_finite() && step.im.is_finite()) {
+                    // The elimination has met a singular pivot: from a little further on it can go on.
+                    step = z * 1e-8;
+                }
+                let size = z.norm();
+                *done = step.norm() <= (CONVERGED * size).max(ROUNDING * self.scale);
+                let largest = LARGEST_STEP * size;
+                if step.norm() > largest {
+                    step *= largest / step.norm();
+                }
+                estimates.values[j] = z - step;
+            }
+            if converged.iter().all(|&done| done) {
+                let estimates = estimates.symmetric()?;
+                return self.are_all(&estimates, speed).then_some(estimates);
+            }
+        }
+        None
+    }
+
+    /// Whether the estimates are all eigenvalues: by their sum, which the largest ones make, and at a few places by the
+    /// sum of 1/(λ − λⱼ).
+    fn are_all(&self, estimates: &Estimates, speed: f64) -> bool {
+        let all = estimates.all();
+        if all.len() != 2 * self.squares.len() {
+            return false;
+        }
+        let (sum, size) = all.iter().fold((C64::new(0.0, 0.0), 0.0), |(s, n), l| (s + l, n + l.norm()));
+        let known = -(self.damping[0] + self.damping[1] * speed);
+        let mut agree = (sum - known).norm() <= AGREEMENT * size;
+        let lowest = self.squares.iter().copied().fold(f64::INFINITY, f64::min).sqrt();
+        let mut place = lowest;
+        while place < self.scale {
+            for lambda in [C64::new(place, 0.0), C64::new(0.5 * lowest, place)] {
+                let terms = all.iter().map(|l| (lambda - l).inv());
+                let (sum, size) = terms.fold((C64::new(0.0, 0.0), 0.0), |(s, n), term| (s + term, n + term.norm()));
+                agree &= (sum - self.function.at(lambda, speed).by_lambda).norm() <= AGREEMENT * size;
+            }
+            place *= 2.0;
+        }
+        agree
+    }
+}
+
+impl Estimates {
+    /// Σ 1/(z − zₖ) over all others than the j-th, its partner among them.
+    fn others(&self, j: usize) -> C64 {
+        let z = self.values[j];
+        let mut sum = C64::new(0.0, 0.0);
+        let mut add = |other: C64| sum += inverse(z - other);
+        for (k, &other) in self.values.iter().enumerate() {
+            if k != j {
+                add(other);
+            }
+            if self.paired {
+                add(other.conj());
+            }
+        }
+        sum
+    }
+
+    /// The same as exact pairs and real numbers; `None` where they are not that to rounding.
+    fn symmetric(mut self) -> Option<Self> {
+        if self.paired {
+            return Some(self);
+        }
+        let mut open: Vec<usize> = (0..self.values.len()).collect();
+        while let Some(j) = open.pop() {
+            let value = self.values[j];
+            let gap = |k: usize| (self.values[k].conj() - value).norm();
+            let partner = (0..open.len()).min_by(|&a, &b| gap(open[a]).total_cmp(&gap(open[b])));
+            let tolerance = 2.0 * CONVERGED * value.norm();
+            match partner {
+                Some(k) if gap(open[k]) < gap(j) => {
+                    let k = open.swap_remove(k);
+                    if gap(k) > tolerance {
+                        return None;
+                    }
+                    self.values[k] = value.conj();
+                }
+                _ if gap(j) <= tolerance => self.values[j].im = 0.0,
+                _ => return None,
+            }
+        }
+        Some(self)
+    }
+
+    /// All eigenvalues.
+    fn all(&self) -> Vec<C64> {
+        if !self.paired {
+            return self.values.clone();
+        }
+        self.values.iter().flat_map(|&value| [value, value.conj()]).collect()
+    }
+
+    /// The same, each by itself and a little off its place.
+    fn unpaired(&self) -> Self {
+        let mut values = Vec::with_capacity(2 * self.values.len());
+        for &value in &self.values {
+            values.push(value);
+            if value.im != 0.0 {
+                values.push(value.conj());
+            }
+        }
+        let gaps: Vec<f64> = (0..values.len()).map(|j| gap(&values, j)).collect();
+        for ((j, value), gap) in values.iter_mut().enumerate().zip(gaps) {
+            // A Weyl sequence: neither symmetric nor periodic.
+            let part = (j as f64 * 0.618_033_988_749_895).fract() - 0.5;
+            *value += C64::new(part, 0.5 + part) * (SPREAD * gap);
+        }
+        Self { values, paired: false }
+    }
+}
+
+/// The distance of an estimate from the nearest other one; from zero where two are the same.
+fn gap(values: &[C64], j: usize) -> f64 {
+    let others = values.iter().enumerate().filter(|&(k, _)| k != j);
+    let nearest = others.map(|(_, other)| (other - values[j]).norm()).fold(f64::INFINITY, f64::min);
+    if nearest > 0.0 { nearest } else { values[j].norm() }
+}
+
+/// 1/z without the care for overflow that the estimates do not need.
+fn inverse(z: C64) -> C64 {
+    z.conj() / z.norm_sqr()
+}

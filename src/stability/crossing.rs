@@ -1,0 +1,313 @@
+//! The first crossing of the imaginary axis, by structure: the zeros of det Q(iω, v) over the plane of ω and v.
+//!
+//! An eigenvalue crosses the axis where det Q(iω, v) = 0 with ω and v real. [`Bounds`] says where in the plane that can
+//! happen. Strips of that region are searched in rising order of v: a cell counts as free of zeros when ln det Q, which
+//! is singular at every zero, changes along all its edges as its derivatives at their ends say; other cells are halved.
+//! Newton's method gives a zero that is suspected in a cell; dividing it out lets the rest of the cell be searched like
+//! any other. Where anything stays in doubt the search says so. docs/theory.md section 11.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Complex;
+
+use super::bounds::Bounds;
+use super::characteristic::Characteristic;
+use crate::mechanics::Vibration;
+
+type C64 = Complex<f64>;
+
+/// A cell is at most this part of the spacing of one cable's frequencies wide, and so high that they move by at most
+/// this part of it: no turn of the phase is overlooked between its corners.
+const LARGEST_CELL: f64 = 0.35;
+/// A strip is at most this high, in m/s.
+const LARGEST_STRIP: f64 = 0.5;
+/// How much d ln det Q times the edge's length may change along an edge. A zero at 0.76 lengths from its middle does
+/// that; one within a cell changes it by at least 2 along an edge.
+const LARGEST_CHANGE: f64 = 1.2;
+/// How far the change of ln det Q may be from the trapezoidal rule.
+const LARGEST_ERROR: f64 = 0.25;
+/// Evaluations after which the dense solver is hardly slower, for all cells and for the first ones of a strip.
+const LARGEST_EFFORT: usize = 50_000;
+const LARGEST_STRIP_EFFORT: f64 = 4000.0;
+/// Cells smaller than this part of the first ones are in doubt.
+const SMALLEST_CELL: f64 = 1e-7;
+/// Newton steps to a zero.
+const NEWTON_STEPS: usize = 25;
+/// Newton's method has ended when its step is this part of a cell.
+const CONVERGED: f64 = 1e-11;
+/// Two zeros nearer than this part of a cell are the same.
+const SAME: f64 = 1e-6;
+
+/// How the search ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Search {
+    /// An eigenvalue crosses to the right at ±iω (rad/s) and v (m/s), none before.
+    Crossing { omega: f64, speed: f64 },
+    /// No eigenvalue crosses up to the limit.
+    NoneUpTo,
+    /// It cannot be told.
+    Doubt,
+}
+
+/// The first crossing at speeds up to `limit` (m/s), of a damped problem: one that is stable at rest.
+pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
+    let Some(bounds) = Bounds::new(vibration) else { return Search::Doubt };
+    let function = Characteristic::new(vibration);
+    let mut plane = Plane {
+        function: &function,
+        bounds: &bounds,
+        zeros: Vec::new(),
+        evaluations: 0,
+        eligible: 0.0,
+        cell: [1.0, 1.0],
+    };
+    let mut from = bounds.lowest_speed(limit);
+    while from < limit {
+        let to = limit.min(from + LARGEST_STRIP);
+        let top = bounds.highest_frequency(to);
+        let columns = (top / (LARGEST_CELL * bounds.frequency_step())).ceil().max(1.0);
+        if columns.is_nan() || columns > LARGEST_STRIP_EFFORT {
+            return Search::Doubt;
+        }
+        plane.cell = [top / columns, to - from];
+        plane.eligible = bounds.highest_frequency(from);
+        if plane.search(from, to, columns).is_none() {
+            return Search::Doubt;
+        }
+        if let Some(zero) = plane.first_from(from).filter(|zero| zero.speed <= to) {
+            // What crosses first crosses to the right: d Re λ/dv = Im b.
+            let sound = zero.slope.im > 0.0;
+            return if sound { Search::Crossing { omega: zero.omega, speed: zero.speed } } else { Search::Doubt };
+        }
+        let missed = |zero: &Zero| zero.speed > 0.0 && zero.speed < from;
+        if plane.zeros.iter().any(missed) {
+            return Search::Doubt;
+        }
+        from = to;
+    }
+    Search::NoneUpTo
+}
+
+/// det Q(iω, v) at one point of the plane.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    omega: f64,
+    speed: f64,
+    log: C64,
+    by_omega: C64,
+    by_speed: C64,
+}
+
+/// A zero, near which D is a multiple of (ω − ω₀) + b (v − v₀), where b is the ratio of D's
+/// derivatives in v and in ω.
+#[derive(Clone, Copy, Debug)]
+struct Zero {
+    omega: f64,
+    speed: f64,
+    /// b in rad/s per m/s: the eigenvalue moves by −i b per unit of v.
+    slope: C64,
+}
+
+impl Zero {
+    /// The linear factors of the zero and of its mirror image at −ω, with their derivatives in v; that in ω is 1.
+    fn factors(&self, omega: f64, speed: f64) -> impl Iterator<Item = (C64, C64)> + use<> {
+        let v = speed - self.speed;
+        let mirrored = -self.slope.conj();
+        let own = (self.slope * v + (omega - self.omega), self.slope);
+        let image = (mirrored * v + (omega + self.omega), mirrored);
+        std::iter::once(own).chain((self.omega != 0.0).then_some(image))
+    }
+}
+
+/// Four corners, the lower two first.
+#[derive(Clone, Copy, Debug)]
+struct Cell {
+    lower: [Corner; 2],
+    upper: [Corner; 2],
+}
+
+/// The plane of ω and v with what has been found in it.
+struct Plane<'a> {
+    function: &'a Characteristic,
+    bounds: &'a Bounds,
+    zeros: Vec<Zero>,
+    evaluations: usize,
+    /// Up to this frequency (rad/s) crossings are possible in all of the strip.
+    eligible: f64,
+    /// The size of the first cells, in rad/s and m/s.
+    cell: [f64; 2],
+}
+
+impl Plane<'_> {
+    /// The first of the zeros from a speed on.
+    fn first_from(&self, from: f64) -> Option<&Zero> {
+        let from = from - SAME * self.cell[1];
+        self.zeros.iter().filter(|zero| zero.speed >= from).min_by(|a, b| a.speed.total_cmp(&b.speed))
+    }
+
+    /// Finds all zeros below the first one between two speeds; `None` in doubt.
+    fn search(&mut self, from: f64, to: f64, columns: f64) -> Option<()> {
+        let mut left = [self.at(0.0, from), self.at(0.0, to)];
+        let mut cells = Vec::new();
+        let mut column = 0.0;
+        let mut first = self.first_from(from).map_or(f64::INFINITY, |zero| zero.speed);
+        while column < columns {
+            column += 1.0;
+            let omega = column * self.cell[0];
+            let right = [self.at(omega, from), self.at(omega, to)];
+            cells.push(Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] });
+            while let Some(cell) = cells.pop() {
+                if first <= cell.lower[0].speed || !self.is_eligible(&cell) {
+                    continue;
+                }
+                let changes = self.changes(&cell);
+                if changes[0] <= 1.0 && changes[1] <= 1.0 {
+                    continue;
+                }
+                if let Some(zero) = self.zero_in(&cell) {
+                    self.zeros.push(zero);
+                    first = self.first_from(from).map_or(f64::INFINITY, |zero| zero.speed);
+                    cells.push(cell);
+                    continue;
+                }
+                let [first, second] = self.halves(&cell, changes);
+                let size = cell.size();
+                let vanishing = size[0] < SMALLEST_CELL * self.cell[0] || size[1] < SMALLEST_CELL * self.cell[1];
+                if vanishing || self.evaluations > LARGEST_EFFORT {
+                    return None;
+                }
+                cells.extend([second, first]);
+            }
+            left = right;
+        }
+        Some(())
+    }
+
+    fn at(&mut self, omega: f64, speed: f64) -> Corner {
+        self.evaluations += 1;
+        let i = C64::new(0.0, 1.0);
+        let value = self.function.at(i * omega, speed);
+        Corner { omega, speed, log: value.log, by_omega: i * value.by_lambda, by_speed: value.by_speed }
+    }
+
+    /// The corner with the zeros divided out.
+    fn without_zeros(&self, corner: &Corner) -> Corner {
+        let mut corner = *corner;
+        for zero in &self.zeros {
+            for (factor, slope) in zero.factors(corner.omega, corner.speed) {
+                corner.log -= factor.ln();
+                corner.by_omega -= factor.inv();
+                corner.by_speed -= slope / factor;
+            }
+        }
+        corner
+    }
+
+    /// How far the edges are from being free of zeros, in ω and in v: at most one where they are. Infinite in v where the
+    /// cell is too tall to tell.
+    fn changes(&self, cell: &Cell) -> [f64; 2] {
+        let [a, b] = cell.lower.map(|corner| self.without_zeros(&corner));
+        let [c, d] = cell.upper.map(|corner| self.without_zeros(&corner));
+        let size = cell.size();
+        let in_omega = |a: Corner, b: Corner| change(b.log - a.log, a.by_omega * size[0], b.by_omega * size[0]);
+        let in_speed = |a: Corner, b: Corner| change(b.log - a.log, a.by_speed * size[1], b.by_speed * size[1]);
+        let tall = if self.is_tall(cell) { f64::INFINITY } else { 0.0 };
+        [in_omega(a, b).max(in_omega(c, d)), in_speed(a, c).max(in_speed(b, d)).max(tall)]
+    }
+
+    /// Whether something can cross in the cell.
+    fn is_eligible(&self, cell: &Cell) -> bool {
+        let omega = cell.lower[0].omega;
+        omega <= self.eligible || omega <= self.bounds.highest_frequency(cell.upper[0].speed)
+    }
+
+    /// Whether frequencies may move so far within the cell that a turn of the phase could be overlooked.
+    fn is_tall(&self, cell: &Cell) -> bool {
+        let corner = &cell.upper[1];
+        cell.size()[1] > LARGEST_CELL * self.bounds.speed_step(corner.omega, corner.speed)
+    }
+
+    /// The cell in two, the lower or left one first, across the direction in which it is less clearly free.
+    fn halves(&mut self, cell: &Cell, [in_omega, in_speed]: [f64; 2]) -> [Cell; 2] {
+        let ([a, b], [c, d]) = (cell.lower, cell.upper);
+        if in_omega > in_speed {
+            let omega = 0.5 * (a.omega + b.omega);
+            let (low, high) = (self.at(omega, a.speed), self.at(omega, c.speed));
+            [Cell { lower: [a, low], upper: [c, high] }, Cell { lower: [low, b], upper: [high, d] }]
+        } else {
+            let speed = 0.5 * (a.speed + c.speed);
+            let (left, right) = (self.at(a.omega, speed), self.at(b.omega, speed));
+            [Cell { lower: [a, b], upper: [left, right] }, Cell { lower: [left, right], upper: [c, d] }]
+        }
+    }
+
+    /// A zero in or near the cell that has not been found before, where Newton's steps from its corners point at one.
+    fn zero_in(&mut self, cell: &Cell) -> Option<Zero> {
+        let corners = [cell.lower[0], cell.lower[1], cell.upper[0], cell.upper[1]];
+        let start = corners.iter().find_map(|corner| {
+            let [omega, speed] = newton_step(&self.without_zeros(corner))?;
+            let (omega, speed) = (corner.omega + omega, corner.speed + speed);
+            cell.is_near(omega, speed).then_some((omega, speed))
+        })?;
+        let (mut omega, mut speed) = start;
+        for _ in 0..NEWTON_STEPS {
+            let here = self.at(omega, speed);
+            let [d_omega, d_speed] = newton_step(&self.without_zeros(&here))?;
+            (omega, speed) = (omega + d_omega, speed + d_speed);
+            if !cell.is_near(omega, speed) {
+                return None;
+            }
+            if d_omega.abs() <= CONVERGED * self.cell[0] && d_speed.abs() <= CONVERGED * self.cell[1] {
+                return self.zero_at(omega.abs(), speed);
+            }
+        }
+        None
+    }
+
+    /// The zero at a point, if it is a new one.
+    fn zero_at(&mut self, omega: f64, speed: f64) -> Option<Zero> {
+        let near = SAME * self.cell[0];
+        let known =
+            |zero: &Zero| (zero.omega - omega).abs() <= near && (zero.speed - speed).abs() <= SAME * self.cell[1];
+        if self.zeros.iter().any(known) {
+            return None;
+        }
+        // Close by, both logarithmic derivatives are those of the zero's linear factor.
+        let omega = if omega <= near { 0.0 } else { omega };
+        let beside = self.at(omega + near, speed);
+        let slope = beside.by_speed / beside.by_omega;
+        (slope.re.is_finite() && slope.im != 0.0).then_some(Zero { omega, speed, slope })
+    }
+}
+
+impl Cell {
+    fn size(&self) -> [f64; 2] {
+        [self.lower[1].omega - self.lower[0].omega, self.upper[0].speed - self.lower[0].speed]
+    }
+
+    /// Whether a point is in the cell, or no further from it than its size.
+    fn is_near(&self, omega: f64, speed: f64) -> bool {
+        let [width, height] = self.size();
+        let (from, to) = (&self.lower[0], &self.upper[1]);
+        (from.omega - width..=to.omega + width).contains(&omega)
+            && (from.speed - height..=to.speed + height).contains(&speed)
+    }
+}
+
+/// How far an edge is from being free of zeros, from the change of ln D along it (up to turns) and its derivatives at
+/// both ends times the length: at most one where it is free, infinite where a corner meets a singular pivot.
+fn change(difference: C64, before: C64, after: C64) -> f64 {
+    let error = difference - (before + after) * 0.5;
+    let turns = (error.im / TAU).round();
+    let error = C64::new(error.re, error.im - turns * TAU).norm() / LARGEST_ERROR;
+    let change = (after - before).norm() / LARGEST_CHANGE;
+    if error.is_finite() && change.is_finite() { error.max(change) } else { f64::INFINITY }
+}
+
+/// The step in ω and v after which ln D's linear model has D = 0.
+fn newton_step(corner: &Corner) -> Option<[f64; 2]> {
+    let (a, b) = (corner.by_omega, corner.by_speed);
+    let determinant = a.re * b.im - a.im * b.re;
+    let step = [-b.im / determinant, a.im / determinant];
+    step.iter().all(|part| part.is_finite()).then_some(step)
+}
