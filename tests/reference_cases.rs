@@ -11,7 +11,7 @@ use common::{close, coordinates, largest, list, name, number, read, reference_fi
 use nalgebra::Complex;
 use serde_json::Value;
 use tautline::mechanics::{Statics, StaticsError};
-use tautline::stability::{Critical, Kind, Outcome};
+use tautline::stability::{Critical, CriticalSearch, Kind, Method, Outcome};
 use tautline::study::Local;
 
 /// Lengths and tensions, relative; nodes, of the longest cable.
@@ -31,7 +31,7 @@ fn four_cable_robots() {
     let files = reference_files("case_0");
     assert_eq!(files.len(), 10);
     for file in files {
-        check_case(&file);
+        check_case(&file, &[Method::Structured]);
     }
 }
 
@@ -40,7 +40,7 @@ fn four_cable_robots_continued() {
     let files = [reference_files("case_1"), reference_files("case_2")].concat();
     assert_eq!(files.len(), 14);
     for file in files {
-        check_case(&file);
+        check_case(&file, &[Method::Structured]);
     }
 }
 
@@ -49,7 +49,7 @@ fn what_the_four_cable_robots_do_not_cover() {
     let files = reference_files("extra_");
     assert_eq!(files.len(), 17);
     for file in files {
-        check_case(&file);
+        check_case(&file, &[Method::Structured, Method::Dense]);
     }
 }
 
@@ -69,7 +69,8 @@ fn infeasible_poses_name_the_cable() {
     }
 }
 
-fn check_case(file: &Path) {
+/// Checks all of a case, the critical speed by each of `methods`.
+fn check_case(file: &Path, methods: &[Method]) {
     let case = read(file);
     let (name, expected) = (name(file), &case["expected"]);
     let (robot, motion) = scenario(&case["scenario"]);
@@ -82,19 +83,24 @@ fn check_case(file: &Path) {
         .map(|pair| coordinates::<2>(pair))
         .map(|[re, im]| Complex::new(re, im))
         .collect();
-    let spectrum = local.problem.spectrum(motion.speed()).expect(name);
     let allowed = EIGENVALUE * largest(&eigenvalues);
-    let actual: Vec<_> = spectrum.eigenvalues().collect();
-    same_multiset(&actual, &eigenvalues, allowed, format_args!("{name}: eigenvalues"));
     let growth = number(&expected["max_growth_rate"]);
-    close(spectrum.growth_rate(), growth, allowed, format_args!("{name}: largest growth rate"));
+    let spectra = [local.spectrum(motion.speed()), local.problem.spectrum(motion.speed())];
+    for (spectrum, by) in spectra.into_iter().zip(["by structure", "dense"]) {
+        let spectrum = spectrum.expect(name);
+        let actual: Vec<_> = spectrum.eigenvalues().collect();
+        same_multiset(&actual, &eigenvalues, allowed, format_args!("{name}: eigenvalues, {by}"));
+        close(spectrum.growth_rate(), growth, allowed, format_args!("{name}: largest growth rate, {by}"));
+    }
 
     let limit = number(&expected["searched_up_to"]);
-    let outcome = local.critical_speed(limit).expect(name);
-    match (outcome, &expected["critical"]) {
-        (Outcome::NoneUpTo(searched), Value::Null) => close(searched, limit, 0.0, "the end of the search"),
-        (Outcome::Found(critical), expected) if expected.is_object() => check_critical(name, &critical, expected),
-        (outcome, expected) => panic!("{name}: {outcome:?}, expected {expected}"),
+    for &method in methods {
+        let outcome = CriticalSearch::by(method, limit).run(&local.vibration, &local.problem).expect(name);
+        match (outcome, &expected["critical"]) {
+            (Outcome::NoneUpTo(searched), Value::Null) => close(searched, limit, 0.0, "the end of the search"),
+            (Outcome::Found(critical), expected) if expected.is_object() => check_critical(name, &critical, expected),
+            (outcome, expected) => panic!("{name}: {outcome:?} by {method:?}, expected {expected}"),
+        }
     }
 }
 

@@ -11,7 +11,7 @@ use common::{close, largest, same_multiset};
 use nalgebra::{Complex, DVector};
 use proptest::prelude::*;
 use tautline::robot::Damping;
-use tautline::stability::{CriticalSearch, Method, Mode, Outcome, Polarisation, Sample, mode};
+use tautline::stability::{CriticalSearch, Method, Mode, Outcome, Polarisation, Sample, Spectrum, mode};
 use tautline::{Local, Motion, Robot};
 
 type C64 = Complex<f64>;
@@ -26,7 +26,7 @@ fn unknowns(mode: &Mode) -> DVector<C64> {
     let platform = mode.displacement[0][0];
     for cable in &mode.displacement {
         assert_eq!(cable[0], platform, "the platform as every cable sees it");
-        assert!(cable[cable.len() - 1].norm() <= 0.0, "a winch moves");
+        close(cable[cable.len() - 1].norm(), 0.0, 0.0, "a winch");
     }
     let inner = mode.displacement.iter().flat_map(|cable| &cable[1..cable.len() - 1]);
     let all: Vec<C64> = [&platform].into_iter().chain(inner).flat_map(|d| d.iter().copied()).collect();
@@ -41,6 +41,40 @@ fn damped(squared_frequency: f64, damping: Damping) -> [C64; 2] {
     [larger, squared_frequency / larger]
 }
 
+/// The spectrum is complete, and every eigenvalue has a mode.
+fn check_spectrum(robot: &Robot, motion: &Motion, local: &Local, dense: &Dense, spectrum: &Spectrum) {
+    let eigenvalues: Vec<C64> = spectrum.eigenvalues().collect();
+    let top = largest(&eigenvalues);
+
+    let nodes = 1 + robot.cables.len() * (robot.elements - 1);
+    assert_eq!(eigenvalues.len(), 4 * nodes, "four eigenvalues per node that moves");
+    let conjugates: Vec<C64> = eigenvalues.iter().map(Complex::conj).collect();
+    same_multiset(&eigenvalues, &conjugates, 1e-14 * top, "eigenvalues against their conjugates");
+    let growth = eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max);
+    close(spectrum.growth_rate(), growth, 0.0, "the largest growth rate");
+
+    let (sum, sum_of_squares) = dense.moments();
+    let squares: Vec<C64> = eigenvalues.iter().map(|l| l * l).collect();
+    for (what, values, expected) in [("eigenvalues", &eigenvalues, sum), ("squares", &squares, sum_of_squares)] {
+        let (total, size): (C64, f64) = (values.iter().sum(), values.iter().map(|l| l.norm()).sum());
+        // A backward stable solver leaves the traces as they are but for rounding.
+        close((total - expected).norm(), 0.0, 1e-12 * size, format_args!("sum of the {what}"));
+    }
+
+    for value in spectrum.modes() {
+        for polarisation in [Polarisation::X, Polarisation::Y] {
+            let mode = mode(&local.vibration, motion.speed(), value.eigenvalue, polarisation);
+            let (residual, slope, size) = dense.residual(value.eigenvalue, &unknowns(&mode));
+            // An eigenvalue is known to rounding of the fastest one, a shape to that of the stiffest spring times what
+            // elimination without pivoting costs where the flow makes modes steep.
+            let allowed = 1e-12 * top * slope + 1e-9 * size;
+            close(residual, 0.0, allowed, format_args!("residual of the mode at {}", value.eigenvalue));
+            let shares = mode.platform_share + mode.cable_share.iter().sum::<f64>();
+            close(shares, 1.0, 1e-12, "shares of the kinetic energy");
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(config(80))]
 
@@ -50,36 +84,8 @@ proptest! {
         prop_assume!(found.is_some());
         let local = found.unwrap();
         let dense = Dense::new(&robot, &local.statics, &local.rates, motion.speed());
-        let spectrum = local.problem.spectrum(motion.speed()).expect("a spectrum");
-        let eigenvalues: Vec<C64> = spectrum.eigenvalues().collect();
-        let top = largest(&eigenvalues);
-
-        let nodes = 1 + robot.cables.len() * (robot.elements - 1);
-        assert_eq!(eigenvalues.len(), 4 * nodes, "four eigenvalues per node that moves");
-        let conjugates: Vec<C64> = eigenvalues.iter().map(Complex::conj).collect();
-        same_multiset(&eigenvalues, &conjugates, 1e-14 * top, "eigenvalues against their conjugates");
-        let growth = eigenvalues.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max);
-        close(spectrum.growth_rate(), growth, 0.0, "the largest growth rate");
-
-        let (sum, sum_of_squares) = dense.moments();
-        let squares: Vec<C64> = eigenvalues.iter().map(|l| l * l).collect();
-        for (what, values, expected) in [("eigenvalues", &eigenvalues, sum), ("squares", &squares, sum_of_squares)] {
-            let (total, size): (C64, f64) = (values.iter().sum(), values.iter().map(|l| l.norm()).sum());
-            // A backward stable solver leaves the traces as they are but for rounding.
-            close((total - expected).norm(), 0.0, 1e-12 * size, format_args!("sum of the {what}"));
-        }
-
-        for value in spectrum.modes() {
-            for polarisation in [Polarisation::X, Polarisation::Y] {
-                let mode = mode(&local.vibration, motion.speed(), value.eigenvalue, polarisation);
-                let (residual, slope, size) = dense.residual(value.eigenvalue, &unknowns(&mode));
-                // An eigenvalue is known to rounding of the fastest one, a shape to that of the stiffest spring times
-                // what elimination without pivoting costs where the flow makes modes steep.
-                let allowed = 1e-12 * top * slope + 1e-9 * size;
-                close(residual, 0.0, allowed, format_args!("residual of the mode at {}", value.eigenvalue));
-                let shares = mode.platform_share + mode.cable_share.iter().sum::<f64>();
-                close(shares, 1.0, 1e-12, "shares of the kinetic energy");
-            }
+        for spectrum in [local.spectrum(motion.speed()), local.problem.spectrum(motion.speed())] {
+            check_spectrum(&robot, &motion, &local, &dense, &spectrum.expect("a spectrum"));
         }
     }
 
@@ -114,7 +120,7 @@ proptest! {
 
     /// Few elements, so that it is quick.
     #[test]
-    fn the_growth_rate_changes_sign_at_the_critical_speed((robot, motion) in moving_robot(2..5)) {
+    fn the_dense_scan_ends_at_the_first_crossing((robot, motion) in moving_robot(2..5)) {
         let limit = 6.0;
         let found = local(&robot, &motion);
         prop_assume!(found.is_some());
@@ -144,5 +150,42 @@ proptest! {
         };
         close(other.speed, critical.speed, 2e-9 + rounding / slope, "critical speed in the mirror");
         assert_eq!(other.kind, critical.kind, "kind in the mirror");
+    }
+}
+
+proptest! {
+    #![proptest_config(config(80))]
+
+    /// The search that is used, judged by all eigenvalues: on both sides of its answer and on the way there.
+    #[test]
+    fn the_critical_speed_is_the_first_crossing((robot, motion) in moving_robot(2..9)) {
+        let limit = 15.0;
+        let found = local(&robot, &motion);
+        prop_assume!(found.is_some());
+        let local = found.unwrap();
+        let growth = |speed: f64| local.problem.spectrum(speed).expect("a spectrum").growth_rate();
+        let outcome = local.critical_speed(limit).expect("eigenvalues");
+        let end = match &outcome {
+            Outcome::Found(critical) => {
+                let around = [critical.speed - 1e-6, critical.speed + 1e-6].map(growth);
+                prop_assert!(around[0] < 0.0 && around[1] > 0.0, "{around:?} around {critical:?}");
+                critical.speed
+            }
+            Outcome::NoneUpTo(end) => *end,
+        };
+        // None of these is a multiple of another, nor of the step of a scan.
+        for part in [0.061, 0.137, 0.239, 0.347, 0.463, 0.571, 0.673, 0.787, 0.887, 0.971] {
+            let rate = growth(part * end);
+            prop_assert!(rate < 0.0, "{rate:e} at {} before {outcome:?}", part * end);
+        }
+        let (mirror, mirror_motion) = mirrored(&robot, &motion);
+        let reflection = Local::new(&mirror, &mirror_motion).expect("statics in the mirror");
+        match (outcome, reflection.critical_speed(limit).expect("eigenvalues")) {
+            (Outcome::Found(critical), Outcome::Found(other)) => {
+                close(other.speed, critical.speed, 1e-6, "critical speed in the mirror");
+                assert_eq!(other.kind, critical.kind, "kind in the mirror");
+            }
+            (outcome, other) => prop_assert_eq!(outcome, other, "in the mirror"),
+        }
     }
 }

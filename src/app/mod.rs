@@ -152,10 +152,17 @@ impl Tautline {
         let replies = self.compute.as_mut().map(Compute::poll).unwrap_or_default();
         for reply in replies {
             // A chosen mode is followed while the robot changes: the next one wanted is the nearest to this.
-            if let (Update::Shape(shape), Which::Near(_)) = (&reply.update, self.state.mode.which) {
+            if let (Update::Shape(shape), Which::Near(_)) = (&reply.update, self.state.mode.which)
+                && !shape.is_critical
+            {
                 self.state.mode.which = Which::Near(shape.eigenvalue);
             }
-            self.answers.take(reply);
+            // An older search may end with its critical mode after another one was chosen.
+            let other = matches!(&reply.update, Update::Shape(shape) if shape.is_critical)
+                && self.state.mode.which != Which::Critical;
+            if !other {
+                self.answers.take(reply);
+            }
         }
     }
 

@@ -58,6 +58,8 @@ struct Pose {
     limit: f64,
     submitted: Instant,
     stage: Stage,
+    /// What the search has found.
+    outcome: Option<Outcome>,
 }
 
 enum Stage {
@@ -87,8 +89,9 @@ impl Engine {
             return Some(self.begin(&job, submitted));
         }
         if let Some(choice) = self.choice.take() {
-            let newest = self.waiting.as_mut().or(self.running.as_mut());
-            return Some(newest.map(|pose| pose.choose(choice)).unwrap_or_default());
+            // An older search under way must not show another mode than the one chosen now.
+            let poses = [self.running.as_mut(), self.waiting.as_mut()];
+            return Some(poses.into_iter().flatten().map(|pose| pose.choose(choice)).last().unwrap_or_default());
         }
         let overtaken = self.waiting.is_some();
         let Some(running) = self.running.as_mut() else {
@@ -173,6 +176,7 @@ impl Pose {
             limit: job.max_speed,
             submitted,
             stage: Stage::searching(job.max_speed),
+            outcome: None,
         })
     }
 
@@ -204,8 +208,12 @@ impl Pose {
         stability::mode(&self.local.vibration, speed, eigenvalue, polarisation)
     }
 
-    /// The chosen mode's shape at the scenario's speed.
+    /// The chosen mode's shape: the critical one at its speed, others at the scenario's.
     fn shape(&self) -> Option<Reply> {
+        if let (Which::Critical, Some(Outcome::Found(critical))) = (self.choice.which, &self.outcome) {
+            let mode = self.mode(critical.speed, critical.eigenvalue);
+            return Some(self.reply(Update::Shape(Box::new(ModeShape::new(&mode, critical.speed, true)))));
+        }
         let wanted = match self.choice.which {
             Which::Critical => self.spectrum.rightmost(),
             Which::Near([re, im]) => Complex::new(re, im.abs()),
@@ -220,14 +228,9 @@ impl Pose {
     /// Changes the chosen mode.
     fn choose(&mut self, choice: ModeChoice) -> Slice {
         self.choice = choice;
-        if choice.which == Which::Critical {
-            // The search that is under way or comes next gives this shape; one that has ended is done again.
-            if !matches!(self.stage, Stage::Searching { .. }) {
-                self.stage = Stage::searching(self.limit);
-            }
-            return Vec::new();
-        }
-        self.shape().into_iter().collect()
+        // Before the search has ended the critical mode is not known; its end gives the shape.
+        let known = choice.which != Which::Critical || self.outcome.is_some();
+        if known { self.shape().into_iter().collect() } else { Vec::new() }
     }
 
     /// One slice of the search or of the curve.
@@ -269,29 +272,23 @@ impl Pose {
                     curve,
                     elapsed_ms: 1e3 * self.submitted.elapsed().as_secs_f64(),
                 }))];
-                let mut end = scanned;
-                match &outcome {
-                    Outcome::Found(critical) => {
-                        if self.choice.which == Which::Critical {
-                            let mode = self.mode(critical.speed, critical.eigenvalue);
-                            let shape = ModeShape::new(&mode, critical.speed, true);
-                            replies.push(self.reply(Update::Shape(Box::new(shape))));
-                        }
-                        end = CURVE_MARGIN * critical.speed.max(self.motion.speed()).max(scanned);
-                    }
-                    Outcome::NoneUpTo(limit) => {
-                        if self.choice.which == Which::Critical {
-                            replies.extend(self.shape());
-                        }
-                        end = end.max(*limit);
-                    }
+                let end = match &outcome {
+                    Outcome::Found(critical) => CURVE_MARGIN * critical.speed.max(self.motion.speed()).max(scanned),
+                    Outcome::NoneUpTo(limit) => scanned.max(*limit),
+                };
+                self.outcome = Some(outcome);
+                if self.choice.which == Which::Critical {
+                    replies.extend(self.shape());
                 }
                 self.stage = Stage::curve(scanned, end);
                 Ok(replies)
             }
             Stage::Curve { from, next, to, last, points, .. } => {
                 let speed = *from + (*to - *from) * f64::from(*next) / f64::from(*last);
-                points.push([speed, self.local.spectra.spectrum(&self.local.problem, speed)?.growth_rate()]);
+                // The answer stands without the rest of its curve.
+                if let Ok(spectrum) = self.local.spectra.spectrum(&self.local.problem, speed) {
+                    points.push([speed, spectrum.growth_rate()]);
+                }
                 *next += 1;
                 let complete = next > last;
                 if points.len() < CURVE_PART && !complete {

@@ -225,7 +225,13 @@ impl CableModel {
 
     /// By how much the cable's end misses its anchor, in m. The walk starts at zero, so that a platform near the anchor
     /// and far from the origin costs no digits.
-    fn miss<D: DualNum<Primitive = f64> + Copy>(&self, position: [D; 2], anchor: Vec2, t0: [D; 2], length: D) -> [D; 2] {
+    fn miss<D: DualNum<Primitive = f64> + Copy>(
+        &self,
+        position: [D; 2],
+        anchor: Vec2,
+        t0: [D; 2],
+        length: D,
+    ) -> [D; 2] {
         let end = self.walk([D::from(0.0); 2], t0, length, |_, _| {});
         [end[0] + (position[0] - anchor.x), end[1] + (position[1] - anchor.y)]
     }

@@ -27,7 +27,8 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
             ui.label(reason);
         }
         CriticalState::Failed(failed) => {
-            ui.colored_label(theme::warning(&visuals), RichText::new("▲ No equilibrium").size(28.0));
+            let title = if failed.cable.is_some() { "▲ No equilibrium" } else { "▲ Not computed" };
+            ui.colored_label(theme::warning(&visuals), RichText::new(title).size(28.0));
             ui.label(failed.report.reason.as_deref().unwrap_or("This pose could not be analysed."));
             ui.weak("Drag the platform back, or change tensions or masses.");
         }

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use eframe::egui::Ui;
 use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
 
-use super::near;
+use super::{STALE, near};
 use crate::app::answers::Answers;
 use crate::app::state::Command;
 use crate::app::theme;
@@ -20,7 +20,11 @@ pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec
         ui.weak("No eigenvalues at this pose.");
         return;
     };
-    ui.weak("Right of the line a vibration grows. Click a point: its mode moves on the canvas.");
+    ui.weak(if answers.pose_is_current() {
+        "Right of the line a vibration grows. Click a point: its mode moves on the canvas."
+    } else {
+        STALE
+    });
     let visuals = ui.visuals().clone();
     let modes = pose.modes.iter().map(|mode| [mode.eigenvalue[0], mode.eigenvalue[1] / TAU]);
     let (unstable, stable): (Vec<_>, Vec<_>) = modes.partition(|[growth, _]| *growth > 0.0);

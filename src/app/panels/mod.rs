@@ -9,6 +9,9 @@ pub mod plots;
 
 use crate::compute::protocol::{ModeChoice, Which};
 
+/// Said over what belongs to an earlier state.
+const STALE: &str = "Being recomputed: this belongs to an earlier state.";
+
 /// The mode choice that selects `eigenvalue`, keeping what else was chosen.
 fn near(choice: ModeChoice, eigenvalue: [f64; 2]) -> ModeChoice {
     ModeChoice { which: Which::Near(eigenvalue), ..choice }

@@ -3,7 +3,7 @@
 use eframe::egui::{Label, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 
-use super::near;
+use super::{STALE, near};
 use crate::app::answers::Answers;
 use crate::app::state::Command;
 use crate::compute::protocol::ModeChoice;
@@ -14,7 +14,11 @@ pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec
         ui.weak("No modes at this pose.");
         return;
     };
-    ui.weak("Modes at today's speed. ζ < 0 grows. The cable is the one with most of the kinetic energy.");
+    ui.weak(if answers.pose_is_current() {
+        "Modes at today's speed. ζ < 0 grows. The cable is the one with most of the kinetic energy."
+    } else {
+        STALE
+    });
     let chosen = answers.shape().filter(|shape| !shape.is_critical).map(|shape| shape.eigenvalue);
     let height = ui.available_height().max(220.0);
     TableBuilder::new(ui)
