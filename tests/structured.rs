@@ -20,7 +20,9 @@ const SMALL: usize = 60;
 /// Eigenvalues nearer to −1/β than this part of it are crowded.
 const CROWD: f64 = 0.1;
 /// The dense solver's growth rates are known to this part of the largest frequency where eigenvalues crowd.
-const ROUNDING: f64 = 1e-8;
+const ROUNDING: f64 = 1e-9;
+/// So far from a crossing, in m/s, the growth rate's sign is clear of the dense solver's rounding.
+const CLEAR: f64 = 1e-3;
 /// Seeds of robots that were answered wrongly, or seemed to be, once.
 const FIXED: [u64; 1] = [5664];
 
@@ -135,12 +137,13 @@ fn compare(local: &Local) -> Result<bool, Option<String>> {
     let spectrum = |speed: f64| local.problem.spectrum(speed).map_err(|_| None::<String>);
     let grows = |speed: f64| spectrum(speed).map(|spectrum| spectrum.growth_rate());
     let Ok(outcome) = CriticalSearch::new(LIMIT).run(&local.vibration, &local.problem) else { return Err(None) };
-    // Where the dense solver has been asked, the answer carries its rounding.
-    let rounding = if without_scan { 0.0 } else { ROUNDING * local.problem.scale() };
+    let rounding = ROUNDING * local.problem.scale();
     let end = match &outcome {
         Outcome::Found(critical) => {
             let (below, above) = (grows(critical.speed - AGREEMENT)?, grows(critical.speed + AGREEMENT)?);
-            if below > rounding || above <= -rounding {
+            // The dense solver's rounding may hide the sign at a shallow crossing; a little further away it is plain.
+            let (well_below, well_above) = (grows(critical.speed - CLEAR)?, grows(critical.speed + CLEAR)?);
+            if below > rounding || above <= -rounding || well_below > 0.0 || well_above <= 0.0 {
                 return Err(Some(format!("{critical:?}: growth {below:e} below and {above:e} above")));
             }
             critical.speed - AGREEMENT
