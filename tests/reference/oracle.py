@@ -668,13 +668,15 @@ class Dynamics:
 
 def critical_speed(dynamics, max_speed, step):
     """First unstable speed up to `max_speed`, as the "critical" object plus `scan_speed`, or None."""
+    low = 0.0
     if dynamics.alpha == 0.0 and dynamics.beta == 0.0:
         # Undamped: every growth rate is zero at rest, so the sign just above decides.
         tiny = 1e-3
         values = dynamics.eigenvalues(tiny)
         if values.real.max() > 1e-11 * np.abs(values).max():
             return describe(dynamics, 0.0, tiny, 0.0)
-    low, count = 0.0, int(math.ceil(max_speed / step - 1e-9))
+        low = tiny
+    count = int(math.ceil(max_speed / step - 1e-9))
     for k in range(1, count + 1):
         v = min(k * step, max_speed)
         if dynamics.growth(v) > 0.0:
