@@ -47,7 +47,7 @@ fn four_cable_robots_continued() {
 #[test]
 fn what_the_four_cable_robots_do_not_cover() {
     let files = reference_files("extra_");
-    assert_eq!(files.len(), 17);
+    assert_eq!(files.len(), 18);
     for file in files {
         check_case(&file, &[Method::Structured, Method::Dense]);
     }

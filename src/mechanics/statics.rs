@@ -475,3 +475,25 @@ where
     }
     (size < 1e-10).then_some((z, j))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::paper;
+
+    /// The platform near an anchor and far from the origin: positions have 1e-15 m of rounding, the cable 1e-6 m.
+    #[test]
+    fn a_platform_near_an_anchor_has_a_shape_up_to_a_micrometre() {
+        let robot = paper().expect("the paper's robot");
+        for gap in [1e-2, 1e-4, 1e-5, 1e-6] {
+            let position = robot.cables[1].anchor - Vec2::new(gap, gap);
+            let statics = solve(&robot, position).unwrap_or_else(|failure| panic!("{gap} m away: {failure}"));
+            let shape = &statics.cables[1];
+            let stretched = gap * std::f64::consts::SQRT_2;
+            // So short a cable is straight: its length follows from its tension alone.
+            let expected = stretched / Material::of(&robot).stretch(shape.tension_at_platform);
+            let error = (shape.length / expected - 1.0).abs();
+            assert!(error < 1e-3 * gap.max(1e-5) + 4e-15 / gap, "{gap} m away: {error}");
+        }
+    }
+}

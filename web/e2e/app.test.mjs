@@ -175,3 +175,14 @@ for (const [name, options] of Object.entries({
         await screenshot(page, `app ${name}`);
     });
 }
+
+for (const file of ["worker_loader.js", "worker_bg.wasm"]) {
+    browserTest(`the page says so when it gets no ${file}`, async ({ open }) => {
+        const page = await open("", { before: (page) => page.route(`**/${file}*`, (route) => route.abort()) });
+        await waitForStart(page);
+        await page.waitForFunction(
+            () => document.getElementById("tautline-summary").textContent.startsWith("The analysis does not run"));
+        assert.equal(await page.locator("#tautline-error").isVisible(), false, "the app goes on");
+        await screenshot(page, `no ${file}`);
+    }, { allow: [/worker/, /ERR_FAILED/, /Failed to fetch/] });
+}
