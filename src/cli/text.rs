@@ -29,9 +29,10 @@ fn write(text: &mut String, scenario: &Scenario, motion: &Motion, report: &Repor
     }
     cables(text, scenario, report)?;
     stability(text, report)?;
-    match &report.critical {
-        Some(critical) => critical_speed(text, report, critical)?,
-        None => writeln!(text, "Critical speed: none found up to {} m/s", digits(report.searched_up_to, 6))?,
+    match (&report.critical, &report.reason) {
+        (Some(critical), _) => critical_speed(text, report, critical)?,
+        (None, Some(reason)) => writeln!(text, "\nCritical speed: not known. {reason}")?,
+        (None, None) => writeln!(text, "Critical speed: none found up to {} m/s", digits(report.searched_up_to, 6))?,
     }
     writeln!(text, "\n{CAVEAT}")
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError};
 use crate::robot::{Motion, Robot};
-use crate::stability::{Critical, CriticalSearch, Kind, Method, NotConverged, Outcome, Spectrum};
+use crate::stability::{Critical, CriticalSearch, Kind, Method, Outcome, Spectrum};
 use crate::study::Local;
 
 /// The name and version of the format.
@@ -18,9 +18,9 @@ pub const DEFAULT_MAX_SPEED: f64 = 40.0;
 pub struct Report {
     /// [`SCHEMA`].
     pub schema: String,
-    /// Whether the pose has a taut equilibrium that could be computed.
+    /// Whether the pose has a taut equilibrium that could be computed; eigenvalues may still be missing.
     pub feasible: bool,
-    /// Why not, as a sentence.
+    /// Why not, or why a feasible pose has no complete answer, as a sentence.
     pub reason: Option<String>,
     /// One entry per cable.
     pub cables: Vec<CableReport>,
@@ -104,18 +104,22 @@ impl From<&Critical> for CriticalReport {
 impl Report {
     /// The report of a pose whose critical speed is not known yet: [`Self::set_critical`] completes it.
     pub fn new(local: &Local, spectrum: &Spectrum) -> Self {
-        let cables = local.statics.cables.iter().zip(&local.rates);
         Self {
-            schema: SCHEMA.into(),
-            feasible: true,
-            reason: None,
-            cables: cables.map(|(shape, &rates)| CableReport::new(shape, rates)).collect(),
-            speed: spectrum.speed(),
             eigenvalues: spectrum.eigenvalues().map(|Complex { re, im }| [re, im]).collect(),
             max_growth_rate: Some(spectrum.growth_rate()),
             stable: Some(spectrum.is_stable()),
-            critical: None,
-            searched_up_to: 0.0,
+            ..Self::at_rest(local, spectrum.speed())
+        }
+    }
+
+    /// The report of a pose whose eigenvalues at `speed` (m/s) are not known.
+    fn at_rest(local: &Local, speed: f64) -> Self {
+        let cables = local.statics.cables.iter().zip(&local.rates);
+        Self {
+            feasible: true,
+            reason: None,
+            cables: cables.map(|(shape, &rates)| CableReport::new(shape, rates)).collect(),
+            ..Self::failed("", speed)
         }
     }
 
@@ -157,26 +161,38 @@ impl Report {
         method: Method,
         mut watch: impl FnMut(f64),
     ) -> Self {
-        let outcome = Local::new(robot, motion).map_err(|failure| failure_sentence(&failure)).and_then(|local| {
-            let mut complete = || -> Result<Self, NotConverged> {
-                let spectrum = match method {
-                    Method::Structured => local.spectrum(motion.speed())?,
-                    Method::Dense => local.problem.spectrum(motion.speed())?,
-                };
-                let mut report = Self::new(&local, &spectrum);
-                let mut search = CriticalSearch::by(method, limit);
-                let outcome = loop {
-                    watch(search.searched_up_to());
-                    if let Some(outcome) = search.advance(&local.vibration, &local.problem)? {
-                        break outcome;
-                    }
-                };
-                report.set_critical(&outcome, limit);
-                Ok(report)
-            };
-            complete().map_err(|error| sentence(&error.to_string()))
-        });
-        outcome.unwrap_or_else(|reason| Self { searched_up_to: limit, ..Self::failed(&reason, motion.speed()) })
+        let speed = motion.speed();
+        let local = match Local::new(robot, motion) {
+            Ok(local) => local,
+            Err(failure) => {
+                return Self { searched_up_to: limit, ..Self::failed(&failure_sentence(&failure), speed) };
+            }
+        };
+        let spectrum = match method {
+            Method::Structured => local.spectrum(speed),
+            Method::Dense => local.problem.spectrum(speed),
+        };
+        // Statics that are known stay in the report, whatever becomes of the eigenvalues.
+        let mut report = match spectrum {
+            Ok(spectrum) => Self::new(&local, &spectrum),
+            Err(error) => return Self { reason: Some(sentence(&error.to_string())), ..Self::at_rest(&local, speed) },
+        };
+        let mut search = CriticalSearch::by(method, limit);
+        loop {
+            watch(search.searched_up_to());
+            match search.advance(&local.vibration, &local.problem) {
+                Ok(None) => {}
+                Ok(Some(outcome)) => {
+                    report.set_critical(&outcome, limit);
+                    return report;
+                }
+                Err(error) => {
+                    report.searched_up_to = search.searched_up_to();
+                    report.reason = Some(sentence(&error.to_string()));
+                    return report;
+                }
+            }
+        }
     }
 }
 
