@@ -423,3 +423,16 @@ fn a_click_on_an_eigenvalue_shows_its_mode() {
     let known = report(&app).eigenvalues;
     assert!(known.contains(&chosen), "{chosen:?} is none of the eigenvalues");
 }
+
+#[test]
+fn the_growth_plot_belongs_to_the_robot_on_show() {
+    let mut app = app();
+    app.get_by_role_and_label(Role::Button, "Growth rate").click();
+    let told = "Above the line at zero a vibration grows. Its first crossing is the critical speed.";
+    let deadline = Instant::now() + PATIENCE;
+    while app.query_by_label(told).is_none() {
+        assert!(Instant::now() < deadline, "no curve");
+        std::thread::sleep(Duration::from_millis(2));
+        app.step();
+    }
+}

@@ -58,7 +58,6 @@ fn a_job_is_answered_with_pose_critical_speed_shape_and_curve() {
             }
             Update::Critical(answer) => {
                 assert_eq!(answer.critical, expected.critical);
-                assert!(answer.curve.windows(2).all(|ends| ends[0][0] < ends[1][0]), "speeds rise");
                 seen[1] = true;
             }
             Update::Shape(shape) => {
@@ -68,7 +67,7 @@ fn a_job_is_answered_with_pose_critical_speed_shape_and_curve() {
                 seen[2] = true;
             }
             Update::Curve(points) => {
-                curve.extend(points);
+                curve = points;
                 seen[3] = true;
             }
             Update::Searching(speed) => assert!(speed <= 40.0),
@@ -76,7 +75,7 @@ fn a_job_is_answered_with_pose_critical_speed_shape_and_curve() {
         }
     }
     assert_eq!(seen, [true; 4]);
-    // The curve comes in parts; it is above zero from the critical speed on.
+    // The curve is above zero from the critical speed on.
     let critical = expected.critical.as_ref().expect("a critical speed").speed;
     assert!(curve.windows(2).all(|ends| ends[0][0] < ends[1][0]), "speeds rise");
     let growing: Vec<bool> = curve.iter().map(|point| point[1] > 0.0).collect();

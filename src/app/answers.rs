@@ -11,6 +11,7 @@ pub struct Answers {
     pose: Option<(Revision, PoseAnswer)>,
     failed: Option<(Revision, Failed)>,
     critical: Option<(Revision, CriticalAnswer)>,
+    curve: Option<(Revision, Vec<[f64; 2]>)>,
     shape: Option<(Revision, ModeShape)>,
     complete: Option<(Revision, Report)>,
     searching: Option<f64>,
@@ -57,11 +58,7 @@ impl Answers {
             }
             Update::Searching(speed) => self.searching = (revision == self.revision).then_some(speed),
             Update::Critical(answer) => self.take_critical(revision, answer),
-            Update::Curve(points) => {
-                if let Some((_, answer)) = self.critical.as_mut().filter(|(known, _)| *known == revision) {
-                    answer.curve.extend(points);
-                }
-            }
+            Update::Curve(points) => self.curve = Some((revision, points)),
             Update::Shape(shape) => self.shape = Some((revision, *shape)),
             Update::Broken(reason) => self.broken = Some(reason),
         }
@@ -93,6 +90,11 @@ impl Answers {
     /// Whether [`Self::pose`] belongs to the document as it is.
     pub fn pose_is_current(&self) -> bool {
         self.pose.as_ref().is_some_and(|(revision, _)| *revision == self.revision)
+    }
+
+    /// The newest growth rates against speed, and whether they belong to the document as it is.
+    pub fn curve(&self) -> Option<(&[[f64; 2]], bool)> {
+        self.curve.as_ref().map(|(revision, points)| (points.as_slice(), *revision == self.revision))
     }
 
     /// Why the newest pose has no answer, where it has none.

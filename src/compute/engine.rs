@@ -32,8 +32,6 @@ const CURVE_MARGIN: f64 = 1.3;
 /// The curve's points where the search has left none, and beyond those that it has left.
 const CURVE_POINTS: u32 = 60;
 const CURVE_POINTS_BEYOND: u32 = 24;
-/// The curve is sent in parts of this many points.
-const CURVE_PART: usize = 15;
 
 /// Serves requests in slices. Feed it with [`Engine::submit`], then call [`Engine::work`] until it returns `None`.
 #[derive(Default)]
@@ -138,14 +136,10 @@ impl Stage {
         Self::Searching { search: CriticalSearch::new(limit), since: Instant::now() }
     }
 
-    /// The curve of growth rates beyond what has been scanned up to the speed `from`, at zero where nothing has.
-    fn curve(from: f64, to: f64) -> Self {
-        let (points, since) = (Vec::new(), Instant::now());
-        match from {
-            _ if to <= from => Self::Done,
-            0.0 => Self::Curve { from, next: 0, to, last: CURVE_POINTS, points, since },
-            _ => Self::Curve { from, next: 1, to, last: CURVE_POINTS_BEYOND, points, since },
-        }
+    /// The curve of growth rates up to the speed `to`, of which a scan has left the `points` up to the speed `from`.
+    fn curve(points: Vec<[f64; 2]>, from: f64, to: f64) -> Self {
+        let (next, last) = if points.is_empty() { (0, CURVE_POINTS) } else { (1, CURVE_POINTS_BEYOND) };
+        Self::Curve { from, next, to, last, points, since: Instant::now() }
     }
 }
 
@@ -262,14 +256,13 @@ impl Pose {
                 let Some(outcome) = search.advance(&self.local.vibration, &self.local.problem)? else {
                     return Ok(Vec::new());
                 };
-                let curve: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
+                let scan: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
                 let scanned = search.searched_up_to();
                 let mut report = Report::new(&self.local, &self.spectrum);
                 report.set_critical(&outcome, self.limit);
                 let mut replies = vec![self.reply(Update::Critical(CriticalAnswer {
                     critical: report.critical,
                     searched_up_to: self.limit,
-                    curve,
                     elapsed_ms: 1e3 * self.submitted.elapsed().as_secs_f64(),
                 }))];
                 let end = match &outcome {
@@ -280,24 +273,21 @@ impl Pose {
                 if self.choice.which == Which::Critical {
                     replies.extend(self.shape());
                 }
-                self.stage = Stage::curve(scanned, end);
+                self.stage = Stage::curve(scan, scanned, end);
                 Ok(replies)
             }
             Stage::Curve { from, next, to, last, points, .. } => {
-                let speed = *from + (*to - *from) * f64::from(*next) / f64::from(*last);
-                // The answer stands without the rest of its curve.
-                if let Ok(spectrum) = self.local.spectra.spectrum(&self.local.problem, speed) {
-                    points.push([speed, spectrum.growth_rate()]);
-                }
-                *next += 1;
-                let complete = next > last;
-                if points.len() < CURVE_PART && !complete {
+                if *next <= *last && *to > *from {
+                    let speed = *from + (*to - *from) * f64::from(*next) / f64::from(*last);
+                    // The answer stands without a point of its curve.
+                    if let Ok(spectrum) = self.local.spectra.spectrum(&self.local.problem, speed) {
+                        points.push([speed, spectrum.growth_rate()]);
+                    }
+                    *next += 1;
                     return Ok(Vec::new());
                 }
                 let points = std::mem::take(points);
-                if complete {
-                    self.stage = Stage::Done;
-                }
+                self.stage = Stage::Done;
                 Ok(vec![self.reply(Update::Curve(points))])
             }
         }

@@ -70,7 +70,7 @@ pub enum Update {
     Searching(f64),
     /// The search has ended: the analysis is complete.
     Critical(CriticalAnswer),
-    /// More of the growth rate against speed, beyond the critical one: [speed in m/s, max Re λ in 1/s].
+    /// The growth rate against speed, to somewhat beyond the critical one: [speed in m/s, max Re λ in 1/s].
     Curve(Vec<[f64; 2]>),
     /// A mode's shape.
     Shape(Box<ModeShape>),
@@ -116,8 +116,6 @@ pub struct CriticalAnswer {
     pub critical: Option<CriticalReport>,
     /// The limit of the search in m/s.
     pub searched_up_to: f64,
-    /// The growth rate against speed as far as it was computed: [speed in m/s, max Re λ in 1/s].
-    pub curve: Vec<[f64; 2]>,
     /// From the request to this reply, in ms.
     pub elapsed_ms: f64,
 }

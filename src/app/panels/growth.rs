@@ -3,22 +3,22 @@
 use eframe::egui::Ui;
 use egui_plot::{Corner, HLine, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
 
-use crate::app::answers::{Answers, CriticalState};
+use super::STALE;
+use crate::app::answers::Answers;
 use crate::app::state::Document;
 use crate::app::theme;
 
 /// Draws the plot.
 pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
-    let Some(answer) = answers.last_critical() else {
+    let (Some(answer), Some((curve, current))) = (answers.last_critical(), answers.curve()) else {
         ui.weak("No growth rates at this pose.");
         return;
     };
     let visuals = ui.visuals().clone();
-    let current = matches!(answers.critical(), CriticalState::Current(_));
     ui.weak(if current {
         "Above the line at zero a vibration grows. Its first crossing is the critical speed."
     } else {
-        "Being recomputed: this curve belongs to an earlier state."
+        STALE
     });
     let colour = if current { theme::calm(&visuals) } else { visuals.weak_text_color() };
     Plot::new("growth")
@@ -35,7 +35,7 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
         })
         .show(ui, |plot| {
             plot.hline(HLine::new("", 0.0).color(visuals.weak_text_color()).allow_hover(false));
-            let curve = PlotPoints::from(near_zero(&answer.curve));
+            let curve = PlotPoints::from(near_zero(curve));
             plot.line(Line::new("Growth rate", curve).color(colour).width(2.0));
             if let Some(critical) = &answer.critical {
                 let line = VLine::new(format!("Critical {:.3} m/s", critical.speed), critical.speed);
