@@ -198,7 +198,7 @@ pub const MODEL: [Field; 3] = [
     Field {
         range: [2.0, 40.0],
         integer: true,
-        meaning: "Finite elements per cable. The error falls as 1/n²; the work grows as n³.",
+        meaning: "Finite elements per cable. The error falls as 1/n²; the work grows faster than n.",
         ..field("Elements per cable", "n", "", Number::Elements)
     },
 ];

@@ -12,8 +12,8 @@ const ITERATIONS_PER_EIGENVALUE: usize = 60;
 /// The eigenvalue problem (λ² M + λ (v C + αM + βK) + K + v² D) q = 0 of a [`Vibration`], prepared for many speeds.
 ///
 /// With the Cholesky factor M = L Lᵀ, x = Lᵀ q and λ = Ω s, Ω² the largest entry of L⁻¹ K L⁻ᵀ, the eigenvalues s are
-/// those of [[0, I], [−K̃/Ω², −C̃/Ω]]: all blocks have entries of order one, so no balancing is needed. An isotropic
-/// problem is solved for one of its two equal directions, and each eigenvalue counted twice.
+/// those of [[0, I], [−K̃/Ω², −C̃/Ω]]: the blocks have entries of order one, the last of order βΩ where that is larger.
+/// An isotropic problem is solved for one of its two equal directions, and each eigenvalue counted twice.
 #[derive(Clone, Debug)]
 pub struct Eigenproblem {
     transfer: DMatrix<f64>,
@@ -136,7 +136,7 @@ impl Eigenproblem {
     }
 }
 
-/// The eigenvalues of a matrix with entries of order one.
+/// The eigenvalues of a matrix; `None` where the iteration stalls, as it may for βΩ beyond about 1e4.
 fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
     let size = matrix.nrows();
     // The iteration may stall on the diagonal's zeros, since it measures what it neglects against the diagonal. With

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use nalgebra::Complex;
 use serde_json::Value;
-use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2};
+use tautline::scenario::Scenario;
 use tautline::{Motion, Robot};
 
 /// Fails unless |actual − expected| ≤ tolerance; NaN and infinity fail on either side.
@@ -104,35 +104,6 @@ pub fn coordinates<const N: usize>(value: &Value) -> [f64; N] {
 
 /// The robot and its motion in a scenario of the format `tautline/scenario/1`.
 pub fn scenario(value: &Value) -> (Robot, Motion) {
-    let cable = |cable: &Value| {
-        let tension = match &cable["tension"] {
-            Value::String(_) => TensionLaw::Equilibrium,
-            law if law["constant"].is_number() => TensionLaw::Constant(number(&law["constant"])),
-            law => TensionLaw::Hypot {
-                horizontal: coordinates(&law["horizontal"]),
-                vertical: coordinates(&law["vertical"]),
-            },
-        };
-        Cable { anchor: Vec2::from(coordinates::<2>(&cable["anchor"])), tension }
-    };
-    let material = &value["cable"];
-    let robot = Robot::new(RobotSpec {
-        gravity: value["gravity"].as_f64().unwrap_or(9.81),
-        youngs_modulus: number(&material["youngs_modulus"]),
-        area: number(&material["area"]),
-        mass_per_length: number(&material["mass_per_length"]),
-        strain: if material["strain"] == "engineering" { Strain::Engineering } else { Strain::Green },
-        platform_mass: number(&value["platform"]["mass"]),
-        cables: list(&value["cables"]).iter().map(cable).collect(),
-        elements: usize::try_from(value["elements_per_cable"].as_u64().expect("a whole number")).expect("a count"),
-        damping: Damping { alpha: number(&value["damping"]["alpha"]), beta: number(&value["damping"]["beta"]) },
-        linearisation: if value["linearisation"] == "tangent" { Linearisation::Tangent } else { Linearisation::Secant },
-    });
-    let motion = &value["motion"];
-    let motion = Motion::new(
-        coordinates::<2>(&motion["position"]),
-        coordinates::<2>(&motion["direction"]),
-        number(&motion["speed"]),
-    );
-    (robot.expect("a valid robot"), motion.expect("a valid motion"))
+    let scenario = Scenario::from_json(&value.to_string()).expect("a scenario");
+    scenario.to_robot().expect("a physical scenario")
 }
