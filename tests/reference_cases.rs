@@ -7,7 +7,9 @@ mod common;
 
 use std::path::Path;
 
-use common::{close, coordinates, largest, list, name, number, read, reference_files, same_multiset, scenario};
+use common::{
+    close, coordinates, eigenproblem, largest, list, name, number, read, reference_files, same_multiset, scenario,
+};
 use nalgebra::Complex;
 use serde_json::Value;
 use tautline::mechanics::{Statics, StaticsError};
@@ -85,7 +87,7 @@ fn check_case(file: &Path, methods: &[Method]) {
         .collect();
     let allowed = EIGENVALUE * largest(&eigenvalues);
     let growth = number(&expected["max_growth_rate"]);
-    let spectra = [local.spectrum(motion.speed()), local.problem.spectrum(motion.speed())];
+    let spectra = [local.spectrum(motion.speed()), eigenproblem(&local).spectrum(motion.speed())];
     for (spectrum, by) in spectra.into_iter().zip(["by structure", "dense"]) {
         let spectrum = spectrum.expect(name);
         let actual: Vec<_> = spectrum.eigenvalues().collect();
@@ -95,7 +97,7 @@ fn check_case(file: &Path, methods: &[Method]) {
 
     let limit = number(&expected["searched_up_to"]);
     for &method in methods {
-        let outcome = CriticalSearch::by(method, limit).run(&local.vibration, &local.problem).expect(name);
+        let outcome = CriticalSearch::by(method, limit).run(&local.vibration).expect(name);
         match (outcome, &expected["critical"]) {
             (Outcome::NoneUpTo(searched), Value::Null) => close(searched, limit, 0.0, "the end of the search"),
             (Outcome::Found(critical), expected) if expected.is_object() => check_critical(name, &critical, expected),

@@ -79,8 +79,7 @@ fn a_damped_travelling_string_is_stable_up_to_the_wave_speed() {
         for damping in damped {
             let what = format!("{n} elements, {linearisation:?}, {damping:?}");
             let vibration = travelling(n, damping, linearisation);
-            let problem = Eigenproblem::new(&vibration).expect("a problem");
-            let outcome = CriticalSearch::new(2.0 * c).run(&vibration, &problem).expect("eigenvalues");
+            let outcome = CriticalSearch::new(2.0 * c).run(&vibration).expect("eigenvalues");
             let Outcome::Found(critical) = outcome else { panic!("{what}: {outcome:?}") };
             close(critical.speed, c, 1e-6, &what);
             assert_eq!(critical.kind, Kind::Divergence, "{what}");

@@ -6,7 +6,7 @@
 use nalgebra::Complex;
 use tautline::mechanics::Hub;
 use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2, paper_spec};
-use tautline::stability::{CriticalSearch, Method, Outcome, SCAN_STEP, Spectra, structured};
+use tautline::stability::{CriticalSearch, Eigenproblem, Method, Outcome, SCAN_STEP, Spectra, structured};
 use tautline::{Local, Motion, Robot};
 
 /// The usual number of robots.
@@ -135,12 +135,13 @@ fn check(local: &Local) -> Verdict {
 /// Whether the structured answer was found without a scan; else what is wrong, `None` where there is no referee.
 fn compare(local: &Local) -> Result<bool, Option<String>> {
     let without_scan = structured(&local.vibration, LIMIT).is_some();
-    let spectrum = |speed: f64| local.problem.spectrum(speed).map_err(|_| None::<String>);
+    let spectrum =
+        |speed: f64| Eigenproblem::new(&local.vibration).unwrap().spectrum(speed).map_err(|_| None::<String>);
     let grows = |speed: f64| spectrum(speed).map(|spectrum| spectrum.growth_rate());
-    let Ok(outcome) = CriticalSearch::new(LIMIT).run(&local.vibration, &local.problem) else { return Err(None) };
+    let Ok(outcome) = CriticalSearch::new(LIMIT).run(&local.vibration) else { return Err(None) };
     // Only overdamped modes crowd, and there are none below βΩ = 2.
-    let crowded = local.vibration.damping.beta * local.problem.scale() > 2.0;
-    let rounding = if crowded { ROUNDING * local.problem.scale() } else { 0.0 };
+    let crowded = local.vibration.damping.beta * local.spectra.scale() > 2.0;
+    let rounding = if crowded { ROUNDING * local.spectra.scale() } else { 0.0 };
     let end = match &outcome {
         Outcome::Found(critical) => {
             let (below, above) = (grows(critical.speed - AGREEMENT)?, grows(critical.speed + AGREEMENT)?);
@@ -154,7 +155,7 @@ fn compare(local: &Local) -> Result<bool, Option<String>> {
         Outcome::NoneUpTo(limit) => *limit,
     };
     if matches!(local.vibration.hub, Hub::Platform(_)) && local.vibration.nodes() <= SMALL {
-        let dense = CriticalSearch::by(Method::Dense, LIMIT).run(&local.vibration, &local.problem).map_err(|_| None)?;
+        let dense = CriticalSearch::by(Method::Dense, LIMIT).run(&local.vibration).map_err(|_| None)?;
         let agree = match (&outcome, &dense) {
             (Outcome::Found(a), Outcome::Found(b)) => {
                 // A crossing and its return within one step of the scan are seen by the structured search alone.
@@ -211,7 +212,7 @@ fn distance(local: &Local, spectra: &mut Spectra, speed: f64) -> Option<f64> {
     let beta = local.vibration.damping.beta;
     let crowded = |value: &Complex<f64>| (value * beta + 1.0).norm() < CROWD;
     let (crowd, found): (Vec<_>, Vec<_>) = spectra.iterate(speed)?.eigenvalues().partition(crowded);
-    let Ok(dense) = local.problem.spectrum(speed) else {
+    let Ok(dense) = Eigenproblem::new(&local.vibration).unwrap().spectrum(speed) else {
         println!("dense solver not converged at {speed} m/s");
         return Some(0.0);
     };
@@ -225,7 +226,7 @@ fn distance(local: &Local, spectra: &mut Spectra, speed: f64) -> Option<f64> {
         furthest = furthest.max(gap(&nearest));
         left.swap_remove(nearest);
     }
-    Some(furthest / local.problem.scale())
+    Some(furthest / local.spectra.scale())
 }
 
 #[test]
@@ -235,7 +236,7 @@ fn all_eigenvalues_are_those_of_the_dense_solver() {
     let (mut wrong, mut undecided, mut asked) = (Vec::new(), Vec::new(), 0_u64);
     for seed in first..first + count {
         let local = random(seed);
-        let mut spectra = Spectra::new(&local.vibration, &local.problem);
+        let mut spectra = Spectra::new(&local.vibration).unwrap();
         for speed in [1.0, 1.5, 6.0, 0.0] {
             asked += 1;
             match distance(&local, &mut spectra, speed) {

@@ -7,7 +7,7 @@ mod common;
 
 use common::dense::Dense;
 use common::random::{config, mirrored, moving_robot, statics};
-use common::{close, largest, same_multiset};
+use common::{close, eigenproblem, largest, same_multiset};
 use nalgebra::{Complex, DVector};
 use proptest::prelude::*;
 use tautline::robot::Damping;
@@ -84,7 +84,7 @@ proptest! {
         prop_assume!(found.is_some());
         let local = found.unwrap();
         let dense = Dense::new(&robot, &local.statics, &local.rates, motion.speed());
-        for spectrum in [local.spectrum(motion.speed()), local.problem.spectrum(motion.speed())] {
+        for spectrum in [local.spectrum(motion.speed()), eigenproblem(&local).spectrum(motion.speed())] {
             check_spectrum(&robot, &motion, &local, &dense, &spectrum.expect("a spectrum"));
         }
     }
@@ -97,7 +97,7 @@ proptest! {
         let local = found.unwrap();
         let squared = Dense::new(&robot, &local.statics, &local.rates, 0.0).squared_frequencies();
         let expected: Vec<C64> = squared.iter().flat_map(|&w| damped(w, robot.damping)).collect();
-        let actual: Vec<C64> = local.problem.spectrum(0.0).expect("a spectrum").eigenvalues().collect();
+        let actual: Vec<C64> = eigenproblem(&local).spectrum(0.0).expect("a spectrum").eigenvalues().collect();
         // Two nearly equal roots of one quadratic are known to the root of rounding only.
         let allowed = 1e-11 * largest(&expected);
         same_multiset(&actual, &expected, allowed, "eigenvalues at rest");
@@ -109,7 +109,7 @@ proptest! {
 fn search(local: &Local, limit: f64) -> (Outcome, Vec<Sample>) {
     let mut search = CriticalSearch::by(Method::Dense, limit);
     loop {
-        if let Some(outcome) = search.advance(&local.vibration, &local.problem).expect("eigenvalues") {
+        if let Some(outcome) = search.advance(&local.vibration).expect("eigenvalues") {
             return (outcome, search.samples().to_vec());
         }
     }
@@ -134,7 +134,7 @@ proptest! {
         let [before, after] = [samples.len() - 2, samples.len() - 1].map(|k| samples[k].speed);
         prop_assert!(before < critical.speed && critical.speed < after, "{before} {critical:?} {after}");
 
-        let spectrum = |speed: f64| local.problem.spectrum(speed).expect("a spectrum");
+        let spectrum = |speed: f64| eigenproblem(&local).spectrum(speed).expect("a spectrum");
         let around = [critical.speed - 1e-6, critical.speed + 1e-6].map(|speed| spectrum(speed).growth_rate());
         prop_assert!(around[0] < 0.0 && around[1] > 0.0, "{around:?} around {critical:?}");
         let eigenvalues: Vec<C64> = spectrum(critical.speed).eigenvalues().collect();
@@ -163,7 +163,7 @@ proptest! {
         let found = local(&robot, &motion);
         prop_assume!(found.is_some());
         let local = found.unwrap();
-        let growth = |speed: f64| local.problem.spectrum(speed).expect("a spectrum").growth_rate();
+        let growth = |speed: f64| eigenproblem(&local).spectrum(speed).expect("a spectrum").growth_rate();
         let outcome = local.critical_speed(limit).expect("eigenvalues");
         let end = match &outcome {
             Outcome::Found(critical) => {

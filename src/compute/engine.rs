@@ -253,7 +253,7 @@ impl Pose {
         match &mut self.stage {
             Stage::Done => Ok(Vec::new()),
             Stage::Searching { search, .. } => {
-                let Some(outcome) = search.advance(&self.local.vibration, &self.local.problem)? else {
+                let Some(outcome) = search.advance(&self.local.vibration)? else {
                     return Ok(Vec::new());
                 };
                 let scan: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
@@ -280,7 +280,7 @@ impl Pose {
                 if *next <= *last && *to > *from {
                     let speed = *from + (*to - *from) * f64::from(*next) / f64::from(*last);
                     // The answer stands without a point of its curve.
-                    if let Ok(spectrum) = self.local.spectra.spectrum(&self.local.problem, speed) {
+                    if let Ok(spectrum) = self.local.spectra.spectrum(&self.local.vibration, speed) {
                         points.push([speed, spectrum.growth_rate()]);
                     }
                     *next += 1;

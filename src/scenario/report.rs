@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError};
 use crate::robot::{Motion, Robot};
-use crate::stability::{Critical, CriticalSearch, Kind, Method, Outcome, Spectrum};
+use crate::stability::{Critical, CriticalSearch, Eigenproblem, Kind, Method, Outcome, Spectrum};
 use crate::study::Local;
 
 /// The name and version of the format.
@@ -170,7 +170,7 @@ impl Report {
         };
         let spectrum = match method {
             Method::Structured => local.spectrum(speed),
-            Method::Dense => local.problem.spectrum(speed),
+            Method::Dense => Eigenproblem::new(&local.vibration).and_then(|problem| problem.spectrum(speed)),
         };
         // Statics that are known stay in the report, whatever becomes of the eigenvalues.
         let mut report = match spectrum {
@@ -180,7 +180,7 @@ impl Report {
         let mut search = CriticalSearch::by(method, limit);
         loop {
             watch(search.searched_up_to());
-            match search.advance(&local.vibration, &local.problem) {
+            match search.advance(&local.vibration) {
                 Ok(None) => {}
                 Ok(Some(outcome)) => {
                     report.set_critical(&outcome, limit);

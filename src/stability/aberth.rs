@@ -2,19 +2,20 @@
 //!
 //! With g = ∂ ln det Q/∂λ = Σ 1/(λ − λⱼ), each estimate z moves by −1/(g(z) − Σ 1/(z − zₖ)), the sum over all other
 //! estimates: Newton's method on what remains once the others are divided out, so that no two estimates go to the same
-//! eigenvalue. At rest the eigenvalues are those of λ² + (α + β ω̂²) λ + ω̂² = 0 with the undamped frequencies ω̂; a
-//! speed's eigenvalues start from those of the speed before. docs/theory.md section 11.
+//! eigenvalue. At rest the eigenvalues are those of λ² + (α + β ω̂²) λ + ω̂² = 0 with the undamped frequencies ω̂;
+//! estimates of these are the start, or the eigenvalues at the speed before. docs/theory.md section 11.
 
 use nalgebra::Complex;
 
 use super::characteristic::Characteristic;
+use super::undamped;
 use crate::mechanics::Vibration;
 use crate::stability::{Eigenproblem, NotConverged, Spectrum};
 
 type C64 = Complex<f64>;
 
-/// Sweeps over all estimates before the iteration is given up.
-const SWEEPS: usize = 40;
+/// Sweeps over the estimates that have not converged before the iteration is given up. The last few take the longest.
+const SWEEPS: usize = 150;
 /// An estimate has converged when its step is this part of it, or [`ROUNDING`] of the largest frequency.
 const CONVERGED: f64 = 1e-9;
 const ROUNDING: f64 = 1e-15;
@@ -24,6 +25,8 @@ const LARGEST_STEP: f64 = 0.5;
 const SPREAD: f64 = 0.1;
 /// After so many failures the dense solver is asked at once.
 const PATIENCE: usize = 3;
+/// The dense solver is not asked about more degrees of freedom than these: it would take minutes.
+const LARGEST_DENSE: usize = 700;
 /// The sums over the eigenvalues must agree with what they are known to be to this part of their terms' sum.
 const AGREEMENT: f64 = 1e-7;
 
@@ -31,7 +34,7 @@ const AGREEMENT: f64 = 1e-7;
 #[derive(Clone, Debug)]
 pub struct Spectra {
     function: Characteristic,
-    /// ω̂² of all undamped modes, in 1/s².
+    /// Estimates of ω̂² of all undamped modes, in 1/s².
     squares: Vec<f64>,
     /// −Σ λⱼ at rest in 1/s, and what a unit of speed adds to it, in 1/m.
     damping: [f64; 2],
@@ -41,7 +44,8 @@ pub struct Spectra {
     multiplicity: usize,
     /// The last spectrum.
     last: Option<Estimates>,
-    /// How often the dense solver had to help.
+    /// The dense solver, once it had to help, and how often it had to.
+    dense: Option<Eigenproblem>,
     failures: usize,
 }
 
@@ -54,36 +58,62 @@ struct Estimates {
 }
 
 impl Spectra {
-    /// Prepares the solver for the same problem in both its forms.
-    pub fn new(vibration: &Vibration, problem: &Eigenproblem) -> Self {
-        let squares = problem.undamped_squares();
+    /// Prepares the solver.
+    ///
+    /// # Errors
+    /// [`NotConverged`] where masses or stiffnesses leave the range of floating point.
+    pub fn new(vibration: &Vibration) -> Result<Self, NotConverged> {
+        let squares = undamped::squares(vibration);
         let (alpha, beta) = (vibration.damping.alpha, vibration.damping.beta);
-        let at_rest = squares.iter().map(|square| alpha + beta * square).sum();
-        Self {
+        let [elastic, transfer] = undamped::traces(vibration);
+        let damping = [alpha * squares.len() as f64 + beta * elastic, transfer];
+        let scale = undamped::largest_frequency(vibration);
+        let sound = |number: &f64| number.is_normal();
+        if !(scale.is_normal() && squares.iter().all(sound) && damping.iter().all(|number| number.is_finite())) {
+            return Err(NotConverged);
+        }
+        Ok(Self {
             function: Characteristic::new(vibration),
-            damping: [at_rest, problem.transfer_trace()],
+            damping,
             squares,
             alpha,
             beta,
-            scale: problem.scale(),
+            scale,
             multiplicity: if vibration.isotropic { 2 } else { 1 },
             last: None,
+            dense: None,
             failures: 0,
+        })
+    }
+
+    /// Starts from the last eigenvalues of a problem of the same size that is not far from this one. The result is the
+    /// same but for rounding.
+    pub fn start_from(&mut self, earlier: &Self) {
+        if earlier.squares.len() == self.squares.len() {
+            self.last.clone_from(&earlier.last);
         }
     }
 
-    /// All eigenvalues at `speed` (m/s), by the dense solver where the iteration leaves doubt.
+    /// The frequency Ω in rad/s that no undamped mode exceeds: rounding errors of eigenvalues are small against it.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// All eigenvalues at `speed` (m/s) of the same `vibration`, by the dense solver where the iteration leaves doubt.
     ///
     /// # Errors
     /// [`NotConverged`] where neither solver has converged.
-    pub fn spectrum(&mut self, problem: &Eigenproblem, speed: f64) -> Result<Spectrum, NotConverged> {
+    pub fn spectrum(&mut self, vibration: &Vibration, speed: f64) -> Result<Spectrum, NotConverged> {
         if self.failures < PATIENCE {
             if let Some(spectrum) = self.iterate(speed) {
                 return Ok(spectrum);
             }
             self.failures += 1;
         }
-        problem.spectrum(speed)
+        if self.dense.is_none() && self.squares.len() <= LARGEST_DENSE {
+            self.dense = Some(Eigenproblem::new(vibration)?);
+        }
+        self.dense.as_ref().ok_or(NotConverged)?.spectrum(speed)
     }
 
     /// The same without the dense solver; `None` where the iteration does not converge to as many eigenvalues as
@@ -99,7 +129,7 @@ impl Spectra {
         Spectrum::new(speed, values, self.multiplicity).ok()
     }
 
-    /// The eigenvalues at rest, in pairs where no mode is overdamped.
+    /// About the eigenvalues at rest, in pairs where no mode is overdamped.
     fn at_rest(&self) -> Estimates {
         let mut values = Vec::with_capacity(2 * self.squares.len());
         let mut paired = true;

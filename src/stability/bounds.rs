@@ -13,7 +13,15 @@
 //! - (1) ω (α + β ω̂² − v r) ≤ v² a ω̂,
 //! - (2) sqrt(ω̂² − v² e) − v s ω̂ ≤ ω ≤ v s ω̂ + sqrt(ω̂² + v² e).
 //!
+//!
+//! For an eigenvalue with Re λ ≥ 0 and |λ| ≥ R the real and imaginary parts of x*Q(λ, v)x/λ = 0 give
+//!
+//! - (3) α + β ω̂² − v r ≤ (max(0, v² s² − 1) ω̂² + v² e + v² a ω̂)/R,
+//! - (4) |λ| ≤ 2 v s ω̂ + v r + 2 (ω̂² (1 + v² s²) + v² a ω̂)/|λ|.
+//!
 //! docs/theory.md section 11.
+
+use std::f64::consts::PI;
 
 use crate::mechanics::{Element, Hub, Vibration};
 use crate::robot::Damping;
@@ -41,8 +49,10 @@ pub(super) struct Bounds {
     lowest: f64,
     /// The square of a frequency above every undamped one.
     highest: f64,
-    /// The longest time of a wave along a cable, in s: the modes of the cable per rad/s, times π.
+    /// The longest time of a wave along a cable, in s: the modes of the cable per rad/s, times π. And that of all cables
+    /// together.
     travel: f64,
+    travels: f64,
 }
 
 /// One element's flow and stiffness in the units of the bounds.
@@ -84,6 +94,7 @@ impl Bounds {
             lowest: 0.0,
             highest: 0.0,
             travel: 0.0,
+            travels: 0.0,
         };
         let (mut compliance, mut hub_stiffness) = (0.0_f64, 0.0);
         for chain in &vibration.chains {
@@ -118,16 +129,17 @@ impl Bounds {
             }
             // ∫ μ u² ≤ (2/π)² (Σ mass)(Σ compliance) u*Ku for a cable held at the winch, of its softest stiffness.
             let n = chain.elements.len() as f64;
-            compliance = compliance.max(4.0 / std::f64::consts::PI.powi(2) * mass * n / softest);
+            compliance = compliance.max(4.0 / PI.powi(2) * mass * n / softest);
             hub_stiffness += 1.0 / stretch;
             bounds.travel = bounds.travel.max(travel);
+            bounds.travels += travel;
         }
         let hub = match vibration.hub {
             Hub::Platform(mass) => mass / hub_stiffness,
             Hub::Fixed => 0.0,
         };
         bounds.lowest = 1.0 / (compliance + hub);
-        let numbers = [bounds.slowness, bounds.acceleration, bounds.highest, bounds.lowest, bounds.travel];
+        let numbers = [bounds.slowness, bounds.acceleration, bounds.highest, bounds.lowest, bounds.travels];
         numbers.iter().all(|number| number.is_finite()).then_some(bounds)
     }
 
@@ -173,16 +185,48 @@ impl Bounds {
         shut * (1.0 + MARGIN)
     }
 
-    /// The spacing of the frequencies (rad/s) of the cable in which a wave travels longest.
-    pub(super) fn frequency_step(&self) -> f64 {
-        std::f64::consts::PI / self.travel
+    /// |λ| (1/s) beyond which nothing is unstable at speed `v`.
+    pub(super) fn largest_unstable(&self, v: f64) -> f64 {
+        let Damping { alpha, beta } = self.damping;
+        let fast = ((v * self.slowness).powi(2) - 1.0).max(0.0);
+        // From |λ| = R on, (3) bounds ω̂, and (4) bounds |λ| by that.
+        let closed = |radius: f64| {
+            let a = beta - fast / radius;
+            let b = v * v * self.acceleration / radius;
+            let c = v * self.reeling - alpha + v * v * self.curvature / radius;
+            let discriminant = b * b + 4.0 * a * c;
+            let top = self.highest.sqrt();
+            let hat = match (a > 0.0, discriminant < 0.0) {
+                (true, true) => return true,
+                (true, false) => top.min((b + discriminant.sqrt()) / (2.0 * a)),
+                (false, _) => top,
+            };
+            let q = hat * hat * (1.0 + (v * self.slowness).powi(2)) + v * v * self.acceleration * hat;
+            2.0 * v * self.slowness * hat + v * self.reeling + 2.0 * q / radius < radius
+        };
+        let mut shut = self.lowest.sqrt();
+        while shut.is_finite() && !closed(shut) {
+            shut *= 2.0;
+        }
+        let mut open = 0.0;
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (open + shut);
+            *(if closed(middle) { &mut shut } else { &mut open }) = middle;
+        }
+        shut * (1.0 + MARGIN)
     }
 
-    /// The step in v (m/s) in which a frequency of `omega` moves by that spacing, near `speed`.
+    /// The number of all cables' frequencies per rad/s.
+    pub(super) fn frequency_density(&self) -> f64 {
+        self.travels / PI
+    }
+
+    /// The step in v (m/s) in which a frequency of `omega` moves by the spacing of the frequencies of the cable in which
+    /// a wave travels longest, near `speed`.
     pub(super) fn speed_step(&self, omega: f64, speed: f64) -> f64 {
         // A string's frequencies fall as 1 − (s v)²; this has the steepest slope before they are zero.
         let slope = 2.0 * self.slowness * (self.slowness * speed).min(1.0) * omega;
-        self.frequency_step() / slope
+        PI / self.travel / slope
     }
 }
 
@@ -190,6 +234,7 @@ impl Bounds {
 mod tests {
     use super::*;
     use crate::robot::{Linearisation, Motion, Robot, RobotSpec, paper_spec};
+    use crate::stability::Eigenproblem;
     use crate::study::Local;
 
     fn local(linearisation: Linearisation, elements: usize, at: [f64; 2], towards: [f64; 2]) -> Local {
@@ -205,10 +250,11 @@ mod tests {
             for (at, towards) in [([0.0, 0.0], [1.0, 0.0]), ([4.0, 1.0], [1.0, 1.0]), ([7.0, 0.0], [-1.0, 0.0])] {
                 let local = local(linearisation, 6, at, towards);
                 let bounds = Bounds::new(&local.vibration).unwrap();
-                let squares = local.problem.undamped_squares();
+                let dense = Eigenproblem::new(&local.vibration).unwrap();
+                let squares = dense.undamped_squares();
                 assert!(squares.iter().all(|&square| (bounds.lowest..=bounds.highest).contains(&square)));
                 let lowest = bounds.lowest_speed(40.0);
-                assert!(local.problem.spectrum(lowest).unwrap().growth_rate() < 0.0);
+                assert!(dense.spectrum(lowest).unwrap().growth_rate() < 0.0);
                 if let crate::stability::Outcome::Found(critical) = local.critical_speed(40.0).unwrap() {
                     assert!(critical.speed > lowest);
                     assert!(critical.eigenvalue.im < bounds.highest_frequency(critical.speed));

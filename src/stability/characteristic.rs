@@ -15,6 +15,9 @@ use crate::mechanics::{Element, Hub, Vibration};
 
 type C64 = Complex<f64>;
 
+/// So many cables are eliminated side by side: each step waits for the one before it in its own cable only.
+const SIDE_BY_SIDE: usize = 4;
+
 /// ln det Q and its derivatives at one (λ, v).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LogDeterminant {
@@ -63,6 +66,14 @@ struct Node {
     own: Sum,
     inward: Sum,
     outward: Sum,
+    place: Place,
+}
+
+/// Where an inner node is.
+#[derive(Clone, Copy, Debug)]
+struct Place {
+    /// Which of the cables that are eliminated side by side.
+    slot: usize,
     /// Whether the node on the platform's side is the hub.
     last: bool,
 }
@@ -84,7 +95,7 @@ struct PlanarNode {
     elastic: [f64; 2],
     /// cos 2θ and sin 2θ.
     turn: [f64; 2],
-    last: bool,
+    place: Place,
 }
 
 impl Characteristic {
@@ -96,28 +107,22 @@ impl Characteristic {
         };
         let mut scalar = Vec::with_capacity(vibration.nodes());
         let mut planar = Vec::with_capacity(vibration.nodes());
-        let mut hub = PlanarSum::default();
-        for chain in &vibration.chains {
-            for k in (1..chain.elements.len()).rev() {
-                let (coupling, outer) = (&chain.elements[k - 1], &chain.elements[k]);
-                let own = PlanarSum::of(coupling, 1).plus(PlanarSum::of(outer, 0));
-                let (inward, outward) = (Entry::of(coupling, 0, 1), Entry::of(coupling, 1, 0));
-                let last = k == 1;
-                if vibration.isotropic {
-                    let elastic = -coupling.elastic[(0, 0)];
-                    let sum = |entry| Sum { entry, elastic };
-                    let own = Sum { entry: own.entry, elastic: own.elastic[0] };
-                    scalar.push(Node { own, inward: sum(inward), outward: sum(outward), last });
-                } else {
-                    let [t, x, y] = parts(&coupling.elastic);
-                    let radius = x.hypot(y);
-                    let turn = if radius > 0.0 { [x / radius, y / radius] } else { [1.0, 0.0] };
-                    let elastic = [t + radius, t - radius];
-                    planar.push(PlanarNode { own, inward, outward, elastic, turn, last });
+        for group in vibration.chains.chunks(SIDE_BY_SIDE) {
+            let longest = group.iter().map(|chain| chain.elements.len()).max().unwrap_or(0);
+            for k in (1..longest).rev() {
+                for (slot, chain) in group.iter().enumerate().filter(|(_, chain)| k < chain.elements.len()) {
+                    let (coupling, outer) = (&chain.elements[k - 1], &chain.elements[k]);
+                    let place = Place { slot, last: k == 1 };
+                    if vibration.isotropic {
+                        scalar.push(Node::new(coupling, outer, place));
+                    } else {
+                        planar.push(PlanarNode::new(coupling, outer, place));
+                    }
                 }
             }
-            hub = hub.plus(PlanarSum::of(&chain.elements[0], 0));
         }
+        let hub = vibration.chains.iter().map(|chain| PlanarSum::of(&chain.elements[0], 0));
+        let hub = hub.fold(PlanarSum::default(), PlanarSum::plus);
         let kind = if vibration.isotropic {
             Kind::Scalar { nodes: scalar, hub: Sum { entry: hub.entry, elastic: hub.elastic[0] } }
         } else {
@@ -134,14 +139,14 @@ impl Characteristic {
         match &self.kind {
             Kind::Scalar { nodes, hub } => {
                 let mut platform = point.sum(hub);
-                let mut outer = Jet::default();
+                let mut outer = [Jet::default(); SIDE_BY_SIDE];
                 for node in nodes {
-                    let pivot = point.sum(&node.own) - outer;
+                    let outer = &mut outer[node.place.slot];
+                    let pivot = point.sum(&node.own) - *outer;
                     let inverse = product.take(pivot);
-                    outer = point.sum(&node.inward) * point.sum(&node.outward) * inverse;
-                    if node.last {
-                        platform = platform - outer;
-                        outer = Jet::default();
+                    *outer = point.sum(&node.inward) * point.sum(&node.outward) * inverse;
+                    if node.place.last {
+                        platform = platform - std::mem::take(outer);
                     }
                 }
                 if let Some(mass) = self.platform {
@@ -150,18 +155,18 @@ impl Characteristic {
             }
             Kind::Planar { nodes, hub } => {
                 let mut platform = point.planar(hub);
-                let mut outer = Planar::default();
+                let mut outer = [Planar::default(); SIDE_BY_SIDE];
                 for node in nodes {
-                    let pivot = (point.planar(&node.own) - outer).turned(node.turn[0], node.turn[1]);
+                    let outer = &mut outer[node.place.slot];
+                    let pivot = (point.planar(&node.own) - *outer).turned(node.turn[0], node.turn[1]);
                     let inverse = product.take(pivot.determinant());
                     let entries = [point.entry(&node.inward), point.entry(&node.outward)];
                     let [elastic_1, elastic_2] = node.elastic.map(|k| point.elastic * k);
                     let inward = [(entries[0] - elastic_1) * inverse, (entries[0] - elastic_2) * inverse];
                     let outward = [entries[1] - elastic_1, entries[1] - elastic_2];
-                    outer = pivot.adjugate_between(inward, outward).turned(node.turn[0], -node.turn[1]);
-                    if node.last {
-                        platform = platform - outer;
-                        outer = Planar::default();
+                    *outer = pivot.adjugate_between(inward, outward).turned(node.turn[0], -node.turn[1]);
+                    if node.place.last {
+                        platform = platform - std::mem::take(outer);
                     }
                 }
                 if let Some(mass) = self.platform {
@@ -182,6 +187,28 @@ fn parts(k: &Matrix2<f64>) -> [f64; 3] {
 impl Entry {
     fn of(element: &Element, i: usize, j: usize) -> Self {
         Self { mass: element.mass[(i, j)], transfer: element.transfer[(i, j)], flow: element.flow[(i, j)] }
+    }
+}
+
+impl Node {
+    /// The node between its element on the platform's side and the one on the winch's side.
+    fn new(coupling: &Element, outer: &Element, place: Place) -> Self {
+        let own = PlanarSum::of(coupling, 1).plus(PlanarSum::of(outer, 0));
+        let elastic = -coupling.elastic[(0, 0)];
+        let [inward, outward] = [(0, 1), (1, 0)].map(|(i, j)| Sum { entry: Entry::of(coupling, i, j), elastic });
+        Self { own: Sum { entry: own.entry, elastic: own.elastic[0] }, inward, outward, place }
+    }
+}
+
+impl PlanarNode {
+    /// The same with both directions.
+    fn new(coupling: &Element, outer: &Element, place: Place) -> Self {
+        let own = PlanarSum::of(coupling, 1).plus(PlanarSum::of(outer, 0));
+        let [t, x, y] = parts(&coupling.elastic);
+        let radius = x.hypot(y);
+        let turn = if radius > 0.0 { [x / radius, y / radius] } else { [1.0, 0.0] };
+        let [inward, outward] = [(0, 1), (1, 0)].map(|(i, j)| Entry::of(coupling, i, j));
+        Self { own, inward, outward, elastic: [t + radius, t - radius], turn, place }
     }
 }
 
@@ -264,11 +291,12 @@ impl Product {
     const LARGE: f64 = 1e120;
 
     /// Multiplies by `factor`, and gives 1/`factor`.
+    #[inline]
     fn take(&mut self, factor: Jet) -> Jet {
         self.mantissa *= factor.value;
         let size = self.mantissa.norm_sqr();
         if !(size < Self::LARGE && size > 1.0 / Self::LARGE) {
-            let norm = self.mantissa.norm();
+            let norm = size.sqrt();
             self.mantissa /= norm;
             self.log += norm.ln();
         }
@@ -289,6 +317,7 @@ impl Product {
 mod tests {
     use super::*;
     use crate::robot::{Linearisation, Motion, Robot, paper_spec};
+    use crate::stability::Eigenproblem;
     use crate::study::Local;
 
     fn local(linearisation: Linearisation, elements: usize) -> Local {
@@ -305,7 +334,7 @@ mod tests {
             let local = local(linearisation, elements);
             let function = Characteristic::new(&local.vibration);
             for speed in [0.0, 4.0, 13.0] {
-                let spectrum = local.problem.spectrum(speed).unwrap();
+                let spectrum = Eigenproblem::new(&local.vibration).unwrap().spectrum(speed).unwrap();
                 let each = if local.vibration.isotropic { 2 } else { 1 };
                 for lambda in [C64::new(0.3, 1.0), C64::new(-0.2, 7.0), C64::new(2.0, 0.0), C64::new(0.0, 20.0)] {
                     let expected: C64 = spectrum.eigenvalues().step_by(each).map(|l| (lambda - l).inv()).sum();

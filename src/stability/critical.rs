@@ -83,13 +83,44 @@ pub enum Method {
     Dense,
 }
 
+/// What gives the scan its eigenvalues.
+#[derive(Debug)]
+enum Solver {
+    Structured(Box<Spectra>),
+    Dense(Box<Eigenproblem>),
+}
+
+impl Solver {
+    fn new(method: Method, vibration: &Vibration) -> Result<Self, NotConverged> {
+        Ok(match method {
+            Method::Structured => Self::Structured(Box::new(Spectra::new(vibration)?)),
+            Method::Dense => Self::Dense(Box::new(Eigenproblem::new(vibration)?)),
+        })
+    }
+
+    fn spectrum(&mut self, vibration: &Vibration, speed: f64) -> Result<Spectrum, NotConverged> {
+        match self {
+            Self::Structured(spectra) => spectra.spectrum(vibration, speed),
+            Self::Dense(problem) => problem.spectrum(speed),
+        }
+    }
+
+    /// About the largest undamped frequency, in rad/s.
+    fn scale(&self) -> f64 {
+        match self {
+            Self::Structured(spectra) => spectra.scale(),
+            Self::Dense(problem) => problem.scale(),
+        }
+    }
+}
+
 /// A search for the critical speed of one problem in slices, so that it can be watched and abandoned.
 #[derive(Debug)]
 pub struct CriticalSearch {
     limit: f64,
     method: Method,
-    /// The structured method's eigenvalues for the scan, once the search without one has been in doubt.
-    spectra: Option<Box<Spectra>>,
+    /// The eigenvalues for the scan, once it has begun.
+    solver: Option<Solver>,
     steps: u64,
     samples: Vec<Sample>,
 }
@@ -102,7 +133,7 @@ impl CriticalSearch {
 
     /// The same by `method`.
     pub fn by(method: Method, limit: f64) -> Self {
-        Self { limit, method, spectra: None, steps: 0, samples: Vec::new() }
+        Self { limit, method, solver: None, steps: 0, samples: Vec::new() }
     }
 
     /// The speeds the dense scan has looked at so far, in rising order; none where the structured search has answered.
@@ -119,32 +150,33 @@ impl CriticalSearch {
     ///
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
-    pub fn run(mut self, vibration: &Vibration, problem: &Eigenproblem) -> Result<Outcome, NotConverged> {
+    pub fn run(mut self, vibration: &Vibration) -> Result<Outcome, NotConverged> {
         loop {
-            if let Some(outcome) = self.advance(vibration, problem)? {
+            if let Some(outcome) = self.advance(vibration)? {
                 return Ok(outcome);
             }
         }
     }
 
-    /// Searches by structure, all at once, or looks at the scan's next speed, of the same `vibration`, whose `problem`
-    /// is given with it; `None` while the search goes on.
+    /// Searches by structure, all at once, or looks at the scan's next speed, of the same `vibration`; `None` while the
+    /// search goes on.
     ///
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
-    pub fn advance(&mut self, vibration: &Vibration, problem: &Eigenproblem) -> Result<Option<Outcome>, NotConverged> {
-        if self.method == Method::Structured && self.spectra.is_none() {
-            let outcome = structured(vibration, self.limit);
-            if outcome.is_none() {
-                self.spectra = Some(Box::new(Spectra::new(vibration, problem)));
+    pub fn advance(&mut self, vibration: &Vibration) -> Result<Option<Outcome>, NotConverged> {
+        let solver = match &mut self.solver {
+            Some(solver) => solver,
+            none => {
+                if self.method == Method::Structured
+                    && let Some(outcome) = structured(vibration, self.limit)
+                {
+                    return Ok(Some(outcome));
+                }
+                none.insert(Solver::new(self.method, vibration)?)
             }
-            return Ok(outcome);
-        }
-        let spectra = &mut self.spectra;
-        let mut spectrum = |speed: f64| match spectra {
-            Some(spectra) => spectra.spectrum(problem, speed),
-            None => problem.spectrum(speed),
         };
+        let scale = solver.scale();
+        let mut spectrum = |speed: f64| solver.spectrum(vibration, speed);
         let speed = (self.steps as f64 * SCAN_STEP).min(self.limit);
         let growth_rate = spectrum(speed)?.growth_rate();
         self.steps += 1;
@@ -153,7 +185,8 @@ impl CriticalSearch {
         if speed == 0.0 {
             return Ok(None);
         }
-        let threshold = threshold(problem);
+        // What a growth rate must exceed to count as positive: zero; without damping, rounding.
+        let threshold = if is_undamped(vibration) { ROUNDING * scale } else { 0.0 };
         if growth_rate > threshold {
             let before = self.samples[self.samples.len() - 2].speed;
             // Without damping nearly everything that grows at the first step has grown from rest on: look just above it.
@@ -168,7 +201,7 @@ impl CriticalSearch {
             let seen_at = if critical == 0.0 { near_zero } else { critical };
             let eigenvalue = spectrum(seen_at)?.rightmost();
             let mode = mode(vibration, seen_at, eigenvalue, Polarisation::default());
-            let kind = if eigenvalue.im > ROUNDING * problem.scale() { Kind::Flutter } else { Kind::Divergence };
+            let kind = if eigenvalue.im > ROUNDING * scale { Kind::Flutter } else { Kind::Divergence };
             let critical = Critical { speed: critical, eigenvalue, kind, cable: mode.responsible_cable() };
             return Ok(Some(Outcome::Found(critical)));
         }
@@ -179,8 +212,7 @@ impl CriticalSearch {
 /// The first crossing by structure, up to `limit` (m/s), without a scan; `None` where the dense scan must decide: in
 /// doubt, and without damping.
 pub fn structured(vibration: &Vibration, limit: f64) -> Option<Outcome> {
-    let damping = vibration.damping;
-    if damping.alpha == 0.0 && damping.beta == 0.0 {
+    if is_undamped(vibration) {
         return None;
     }
     match first_crossing(vibration, limit) {
@@ -195,10 +227,8 @@ pub fn structured(vibration: &Vibration, limit: f64) -> Option<Outcome> {
     }
 }
 
-/// What a growth rate must exceed to count as positive: zero; without damping, rounding.
-fn threshold(problem: &Eigenproblem) -> f64 {
-    let undamped = problem.damping().alpha == 0.0 && problem.damping().beta == 0.0;
-    if undamped { ROUNDING * problem.scale() } else { 0.0 }
+fn is_undamped(vibration: &Vibration) -> bool {
+    vibration.damping.alpha == 0.0 && vibration.damping.beta == 0.0
 }
 
 /// The crossing between a stable and an unstable speed, by bisection.

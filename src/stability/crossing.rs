@@ -6,26 +6,23 @@
 //! Newton's method gives a zero that is suspected in a cell; dividing it out lets the rest of the cell be searched like
 //! any other. Where anything stays in doubt the search says so. docs/theory.md section 11.
 
-use std::f64::consts::TAU;
+use std::collections::HashMap;
 
 use nalgebra::Complex;
 
 use super::bounds::Bounds;
 use super::characteristic::Characteristic;
+use super::count::{change, count};
 use crate::mechanics::Vibration;
 
 type C64 = Complex<f64>;
 
-/// A cell is at most this part of the spacing of one cable's frequencies wide, and so high that they move by at most
-/// this part of it: no turn of the phase is overlooked between its corners.
-const LARGEST_CELL: f64 = 0.35;
+/// A cell is so wide that it is expected to hold this many of all cables' frequencies, and at most so high that one
+/// cable's move by this part of their spacing: no turn of the phase, which takes two, is overlooked between its corners.
+const LARGEST_WIDTH: f64 = 1.4;
+const LARGEST_MOVE: f64 = 0.35;
 /// A strip is at most this high, in m/s.
 const LARGEST_STRIP: f64 = 0.5;
-/// How much d ln det Q times the edge's length may change along an edge. A zero at 0.76 lengths from its middle does
-/// that; one within a cell changes it by at least 2 along an edge.
-const LARGEST_CHANGE: f64 = 1.2;
-/// How far the change of ln det Q may be from the trapezoidal rule.
-const LARGEST_ERROR: f64 = 0.25;
 /// Evaluations after which the dense solver is hardly slower, for all cells and for the first ones of a strip.
 const LARGEST_EFFORT: usize = 50_000;
 const LARGEST_STRIP_EFFORT: f64 = 4000.0;
@@ -37,6 +34,8 @@ const NEWTON_STEPS: usize = 25;
 const CONVERGED: f64 = 1e-11;
 /// Two zeros nearer than this part of a cell are the same.
 const SAME: f64 = 1e-6;
+/// This part of a strip below the answer the unstable eigenvalues are counted: none.
+const BELOW: f64 = 1e-3;
 
 /// How the search ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,27 +55,32 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
     let mut plane = Plane {
         function: &function,
         bounds: &bounds,
+        known: HashMap::new(),
+        trend: Trend::default(),
         zeros: Vec::new(),
         evaluations: 0,
         eligible: 0.0,
-        cell: [1.0, 1.0],
+        cell: [LARGEST_WIDTH / bounds.frequency_density(), LARGEST_STRIP],
     };
     let mut from = bounds.lowest_speed(limit);
     while from < limit {
         let to = limit.min(from + LARGEST_STRIP);
         let top = bounds.highest_frequency(to);
-        let columns = (top / (LARGEST_CELL * bounds.frequency_step())).ceil().max(1.0);
+        let columns = (top / plane.cell[0]).ceil().max(1.0);
         if columns.is_nan() || columns > LARGEST_STRIP_EFFORT {
             return Search::Doubt;
         }
-        plane.cell = [top / columns, to - from];
+        plane.cell[1] = to - from;
+        plane.follow_trend(from, to, top);
         plane.eligible = bounds.highest_frequency(from);
         if plane.search(from, to, columns).is_none() {
             return Search::Doubt;
         }
+
         if let Some(zero) = plane.first_from(from).filter(|zero| zero.speed <= to) {
-            // What crosses first crosses to the right: d Re λ/dv = Im b.
-            let sound = zero.slope.im > 0.0;
+            // What crosses first crosses to the right: d Re λ/dv = Im b. Below it nothing is unstable.
+            let below = (zero.speed - BELOW * LARGEST_STRIP).max(0.5 * zero.speed);
+            let sound = zero.slope.im > 0.0 && count(&function, &bounds, below) == Some(0);
             return if sound { Search::Crossing { omega: zero.omega, speed: zero.speed } } else { Search::Doubt };
         }
         let missed = |zero: &Zero| zero.speed > 0.0 && zero.speed < from;
@@ -85,7 +89,7 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
         }
         from = to;
     }
-    Search::NoneUpTo
+    if count(&function, &bounds, limit) == Some(0) { Search::NoneUpTo } else { Search::Doubt }
 }
 
 /// det Q(iω, v) at one point of the plane.
@@ -126,10 +130,40 @@ struct Cell {
     upper: [Corner; 2],
 }
 
+/// What the many fast modes of a fine mesh make of ln D as v rises: a cubic polynomial p. D e^(−p) has the zeros of D.
+#[derive(Clone, Copy, Debug, Default)]
+struct Trend {
+    from: f64,
+    /// Of p in v − `from`, from the constant on.
+    coefficients: [f64; 4],
+}
+
+impl Trend {
+    /// The cubic with these values and slopes at two speeds.
+    fn between([from, to]: [f64; 2], [a, b]: [f64; 2], [slope_a, slope_b]: [f64; 2]) -> Self {
+        let h = to - from;
+        let mean = (b - a) / h;
+        let coefficients =
+            [a, slope_a, (3.0 * mean - 2.0 * slope_a - slope_b) / h, (slope_a + slope_b - 2.0 * mean) / (h * h)];
+        // Where a value is out of range there is no trend to follow.
+        if coefficients.iter().all(|c| c.is_finite()) { Self { from, coefficients } } else { Self::default() }
+    }
+
+    /// p and its derivative.
+    fn at(&self, speed: f64) -> [f64; 2] {
+        let v = speed - self.from;
+        let [a, b, c, d] = self.coefficients;
+        [a + v * (b + v * (c + v * d)), b + v * (2.0 * c + v * 3.0 * d)]
+    }
+}
+
 /// The plane of ω and v with what has been found in it.
 struct Plane<'a> {
     function: &'a Characteristic,
     bounds: &'a Bounds,
+    /// The corners of the strip, which neighbouring cells share, by the bits of ω and v.
+    known: HashMap<[u64; 2], Corner>,
+    trend: Trend,
     zeros: Vec<Zero>,
     evaluations: usize,
     /// Up to this frequency (rad/s) crossings are possible in all of the strip.
@@ -147,14 +181,14 @@ impl Plane<'_> {
 
     /// Finds all zeros below the first one between two speeds; `None` in doubt.
     fn search(&mut self, from: f64, to: f64, columns: f64) -> Option<()> {
-        let mut left = [self.at(0.0, from), self.at(0.0, to)];
+        let mut left = [self.corner(0.0, from), self.corner(0.0, to)];
         let mut cells = Vec::new();
         let mut column = 0.0;
         let mut first = self.first_from(from).map_or(f64::INFINITY, |zero| zero.speed);
         while column < columns {
             column += 1.0;
             let omega = column * self.cell[0];
-            let right = [self.at(omega, from), self.at(omega, to)];
+            let right = [self.corner(omega, from), self.corner(omega, to)];
             cells.push(Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] });
             while let Some(cell) = cells.pop() {
                 if first <= cell.lower[0].speed || !self.is_eligible(&cell) {
@@ -183,6 +217,7 @@ impl Plane<'_> {
         Some(())
     }
 
+    /// D at a point.
     fn at(&mut self, omega: f64, speed: f64) -> Corner {
         self.evaluations += 1;
         let i = C64::new(0.0, 1.0);
@@ -190,9 +225,31 @@ impl Plane<'_> {
         Corner { omega, speed, log: value.log, by_omega: i * value.by_lambda, by_speed: value.by_speed }
     }
 
-    /// The corner with the zeros divided out.
+    /// D at a corner of cells.
+    fn corner(&mut self, omega: f64, speed: f64) -> Corner {
+        let key = [omega.to_bits(), speed.to_bits()];
+        if let Some(corner) = self.known.get(&key) {
+            return *corner;
+        }
+        let corner = self.at(omega, speed);
+        self.known.insert(key, corner);
+        corner
+    }
+
+    /// Goes on to the strip between two speeds with crossings below the frequency `top`.
+    fn follow_trend(&mut self, from: f64, to: f64, top: f64) {
+        self.known.retain(|&[_, speed], _| speed == from.to_bits());
+        // To the right of the axis, further than what moves in the strip: nothing but the trend is left of it.
+        let [begin, end] = [from, to].map(|speed| self.function.at(top.into(), speed));
+        self.trend = Trend::between([from, to], [begin.log.re, end.log.re], [begin.by_speed.re, end.by_speed.re]);
+    }
+
+    /// The corner with the trend and the zeros divided out.
     fn without_zeros(&self, corner: &Corner) -> Corner {
         let mut corner = *corner;
+        let [trend, by_speed] = self.trend.at(corner.speed);
+        corner.log -= trend;
+        corner.by_speed -= by_speed;
         for zero in &self.zeros {
             for (factor, slope) in zero.factors(corner.omega, corner.speed) {
                 corner.log -= factor.ln();
@@ -224,7 +281,7 @@ impl Plane<'_> {
     /// Whether frequencies may move so far within the cell that a turn of the phase could be overlooked.
     fn is_tall(&self, cell: &Cell) -> bool {
         let corner = &cell.upper[1];
-        cell.size()[1] > LARGEST_CELL * self.bounds.speed_step(corner.omega, corner.speed)
+        cell.size()[1] > LARGEST_MOVE * self.bounds.speed_step(corner.omega, corner.speed)
     }
 
     /// The cell in two, the lower or left one first, across the direction in which it is less clearly free.
@@ -232,11 +289,11 @@ impl Plane<'_> {
         let ([a, b], [c, d]) = (cell.lower, cell.upper);
         if in_omega > in_speed {
             let omega = 0.5 * (a.omega + b.omega);
-            let (low, high) = (self.at(omega, a.speed), self.at(omega, c.speed));
+            let (low, high) = (self.corner(omega, a.speed), self.corner(omega, c.speed));
             [Cell { lower: [a, low], upper: [c, high] }, Cell { lower: [low, b], upper: [high, d] }]
         } else {
             let speed = 0.5 * (a.speed + c.speed);
-            let (left, right) = (self.at(a.omega, speed), self.at(b.omega, speed));
+            let (left, right) = (self.corner(a.omega, speed), self.corner(b.omega, speed));
             [Cell { lower: [a, b], upper: [left, right] }, Cell { lower: [left, right], upper: [c, d] }]
         }
     }
@@ -292,16 +349,6 @@ impl Cell {
         (from.omega - width..=to.omega + width).contains(&omega)
             && (from.speed - height..=to.speed + height).contains(&speed)
     }
-}
-
-/// How far an edge is from being free of zeros, from the change of ln D along it (up to turns) and its derivatives at
-/// both ends times the length: at most one where it is free, infinite where a corner meets a singular pivot.
-fn change(difference: C64, before: C64, after: C64) -> f64 {
-    let error = difference - (before + after) * 0.5;
-    let turns = (error.im / TAU).round();
-    let error = C64::new(error.re, error.im - turns * TAU).norm() / LARGEST_ERROR;
-    let change = (after - before).norm() / LARGEST_CHANGE;
-    if error.is_finite() && change.is_finite() { error.max(change) } else { f64::INFINITY }
 }
 
 /// The step in ω and v after which ln D's linear model has D = 0.

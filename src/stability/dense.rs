@@ -98,19 +98,10 @@ impl Eigenproblem {
     }
 
     /// ω̂² of all undamped modes at rest, in 1/s²: the eigenvalues of K against M.
+    #[cfg(test)]
     pub(super) fn undamped_squares(&self) -> Vec<f64> {
         let squares = self.elastic.symmetric_eigenvalues();
         squares.iter().map(|square| square * self.scale * self.scale).collect()
-    }
-
-    /// The trace of M⁻¹ C in 1/m, of one direction where the problem is isotropic.
-    pub(super) fn transfer_trace(&self) -> f64 {
-        self.transfer.trace() * self.scale
-    }
-
-    /// α and β.
-    pub fn damping(&self) -> Damping {
-        self.damping
     }
 
     /// All eigenvalues at `speed` (m/s), in 1/s.

@@ -78,6 +78,7 @@ impl Sub for Planar {
 }
 
 impl Planar {
+    #[inline]
     pub(super) fn determinant(&self) -> Jet {
         (self.t + self.x) * (self.t - self.x) - (self.y + self.w) * (self.y - self.w)
     }

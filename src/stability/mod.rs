@@ -3,15 +3,18 @@
 mod aberth;
 mod bounds;
 mod characteristic;
+mod count;
 mod critical;
 mod crossing;
 mod dense;
 mod jet;
 mod modes;
 mod spectrum;
+mod undamped;
 
 pub use aberth::Spectra;
 pub use characteristic::{Characteristic, LogDeterminant};
+pub use count::unstable_eigenvalues;
 pub use critical::{Critical, CriticalSearch, Kind, Method, Outcome, SCAN_STEP, Sample, structured};
 pub use dense::Eigenproblem;
 pub use modes::{Mode, Polarisation, mode};

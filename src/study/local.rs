@@ -2,7 +2,7 @@
 
 use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration};
 use crate::robot::{Motion, Robot};
-use crate::stability::{CriticalSearch, Eigenproblem, NotConverged, Outcome, Spectra, Spectrum};
+use crate::stability::{CriticalSearch, NotConverged, Outcome, Spectra, Spectrum};
 
 /// Statics, motion and the small-vibration problem at one pose.
 #[derive(Clone, Debug)]
@@ -13,9 +13,7 @@ pub struct Local {
     pub rates: Vec<LengthRates>,
     /// The problem of small vibrations, for every speed.
     pub vibration: Vibration,
-    /// The same, reduced for the eigenvalue solver.
-    pub problem: Eigenproblem,
-    /// The same, prepared for eigenvalues by structure.
+    /// The same, prepared for its eigenvalues.
     pub spectra: Spectra,
 }
 
@@ -34,11 +32,8 @@ impl Local {
             return Err(failed(statics));
         };
         let vibration = Vibration::new(robot, &statics, &rates);
-        match Eigenproblem::new(&vibration) {
-            Ok(problem) => {
-                let spectra = Spectra::new(&vibration, &problem);
-                Ok(Self { statics, rates, vibration, problem, spectra })
-            }
+        match Spectra::new(&vibration) {
+            Ok(spectra) => Ok(Self { statics, rates, vibration, spectra }),
             Err(_) => Err(failed(statics)),
         }
     }
@@ -48,7 +43,7 @@ impl Local {
     /// # Errors
     /// [`NotConverged`] where the eigenvalue problem could not be solved.
     pub fn spectrum(&self, speed: f64) -> Result<Spectrum, NotConverged> {
-        self.spectra.clone().spectrum(&self.problem, speed)
+        self.spectra.clone().spectrum(&self.vibration, speed)
     }
 
     /// The critical speed, searched up to `limit` (m/s).
@@ -56,6 +51,6 @@ impl Local {
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
     pub fn critical_speed(&self, limit: f64) -> Result<Outcome, NotConverged> {
-        CriticalSearch::new(limit).run(&self.vibration, &self.problem)
+        CriticalSearch::new(limit).run(&self.vibration)
     }
 }

@@ -11,7 +11,8 @@ use std::path::{Path, PathBuf};
 use nalgebra::Complex;
 use serde_json::Value;
 use tautline::scenario::Scenario;
-use tautline::{Motion, Robot};
+use tautline::stability::Eigenproblem;
+use tautline::{Local, Motion, Robot};
 
 /// Fails unless |actual − expected| ≤ tolerance; NaN and infinity fail on either side.
 #[track_caller]
@@ -19,6 +20,11 @@ pub fn close(actual: f64, expected: f64, tolerance: f64, what: impl Display) {
     assert!(tolerance.is_finite(), "{what}: the tolerance is {tolerance}");
     let error = (actual - expected).abs();
     assert!(error <= tolerance, "{what}: {actual:e}, expected {expected:e}: off by {error:e}, allowed {tolerance:e}");
+}
+
+/// The crate's dense solver for the same problem.
+pub fn eigenproblem(local: &Local) -> Eigenproblem {
+    Eigenproblem::new(&local.vibration).expect("a problem")
 }
 
 /// The largest modulus.

@@ -1,0 +1,129 @@
+//! What the elements tell of the modes without solving for them: estimates of the undamped frequencies, and the sum of
+//! all eigenvalues.
+
+use std::f64::consts::PI;
+
+use nalgebra::Matrix2;
+use num_dual::{Dual64, DualNum};
+
+use crate::mechanics::{Block, Chain, Element, Hub, Vibration};
+
+/// Cables that are equal have estimates that differ by parts of this, so that each leads to an eigenvalue of its own.
+const APART: f64 = 0.02;
+
+/// An estimate of ω̂² (1/s²) for every mode of (K, M), those of one direction where the problem is isotropic: of each
+/// cable as a uniform string with fixed ends, along and across, and of the platform on springs.
+///
+/// With θ = jπ/n such a string of n elements has ω̂² = 6 (k/m) (1 − cos θ)/(2 + cos θ), k/m the square of n over the
+/// sum of sqrt(m/k) over the elements: waves travel as long as in the cable.
+pub(super) fn squares(vibration: &Vibration) -> Vec<f64> {
+    let directions = if vibration.isotropic { 1 } else { 2 };
+    let mut squares = Vec::with_capacity(directions * vibration.nodes());
+    let (mut stiffness, mut mass) = (Matrix2::zeros(), 0.0);
+    // A Weyl sequence: no two of its values are near each other.
+    let mut golden = 0.0_f64;
+    for chain in &vibration.chains {
+        let n = chain.elements.len() as f64;
+        for direction in 0..directions {
+            golden = (golden + 0.618_033_988_749_895).fract();
+            let travel: f64 = chain.elements.iter().map(|e| (line_mass(e) / stiffnesses(e)[direction]).sqrt()).sum();
+            let uniform = (n / travel).powi(2) * (1.0 + APART * (golden - 0.5));
+            squares.extend((1..chain.elements.len()).map(|j| {
+                let cosine = (PI * j as f64 / n).cos();
+                6.0 * uniform * (1.0 - cosine) / (2.0 + cosine)
+            }));
+        }
+        stiffness += in_series(chain);
+        mass += chain.elements.iter().map(line_mass).sum::<f64>() / 3.0;
+    }
+    if let Hub::Platform(platform) = vibration.hub {
+        let springs = stiffness.symmetric_eigenvalues() / (platform + mass);
+        squares.extend(springs.iter().take(directions));
+    }
+    squares
+}
+
+/// A frequency (rad/s) that no undamped mode exceeds: that of the stiffest element by itself.
+pub(super) fn largest_frequency(vibration: &Vibration) -> f64 {
+    let elements = vibration.chains.iter().flat_map(|chain| &chain.elements);
+    elements.map(|e| 12.0 * stiffnesses(e)[1] / line_mass(e)).fold(0.0, f64::max).sqrt()
+}
+
+/// The traces of M⁻¹ K (1/s²) and of M⁻¹ C (1/m), of one direction where the problem is isotropic.
+///
+/// tr M⁻¹ X = d ln det (M + ε X)/dε at ε = 0. M couples no directions, so that K enters by the trace of its blocks.
+pub(super) fn traces(vibration: &Vibration) -> [f64; 2] {
+    let directions = if vibration.isotropic { 1.0 } else { 2.0 };
+    let elastic = |e: &Element| {
+        let k = if vibration.isotropic { e.elastic[(0, 0)] } else { e.elastic.trace() };
+        Block::new(k, -k, -k, k)
+    };
+    [trace(vibration, elastic), trace(vibration, |e| e.transfer * directions)]
+}
+
+/// The trace of M⁻¹ X for one direction, X given per element.
+fn trace(vibration: &Vibration, of: impl Fn(&Element) -> Block) -> f64 {
+    let entry = |e: &Element, i: usize, j: usize| Dual64::new(e.mass[(i, j)], of(e)[(i, j)]);
+    let (mut log, mut hub) = (Dual64::from(0.0), Dual64::from(0.0));
+    for Chain { elements } in &vibration.chains {
+        let mut outer = Dual64::from(0.0);
+        for pair in elements.windows(2).rev() {
+            let pivot = entry(&pair[0], 1, 1) + entry(&pair[1], 0, 0) - outer;
+            outer = entry(&pair[0], 0, 1) * entry(&pair[0], 1, 0) / pivot;
+            log += pivot.ln();
+        }
+        hub += entry(&elements[0], 0, 0) - outer;
+    }
+    if let Hub::Platform(mass) = vibration.hub {
+        log += (hub + mass).ln();
+    }
+    log.eps
+}
+
+/// μ l in kg.
+fn line_mass(element: &Element) -> f64 {
+    3.0 * element.mass[(0, 0)]
+}
+
+/// The eigenvalues of A/l in N/m, the smaller one first.
+fn stiffnesses(element: &Element) -> [f64; 2] {
+    let k = &element.elastic;
+    let (mean, radius) = (0.5 * (k[(0, 0)] + k[(1, 1)]), (0.5 * (k[(0, 0)] - k[(1, 1)])).hypot(k[(0, 1)]));
+    [mean - radius, mean + radius]
+}
+
+/// The stiffness that a cable without mass holds the platform with.
+fn in_series(chain: &Chain) -> Matrix2<f64> {
+    let compliance = chain.elements.iter().filter_map(|e| e.elastic.try_inverse()).fold(Matrix2::zeros(), |a, b| a + b);
+    compliance.try_inverse().unwrap_or_else(Matrix2::zeros)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::{Linearisation, Motion, Robot, RobotSpec, paper_spec};
+    use crate::stability::Eigenproblem;
+    use crate::study::Local;
+
+    /// The sums of the dense solver's eigenvalues, and its largest frequency.
+    #[test]
+    fn traces_are_the_sums_of_the_eigenvalues() {
+        for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
+            let robot = Robot::new(RobotSpec { elements: 7, linearisation, ..paper_spec() }).unwrap();
+            let local = Local::new(&robot, &Motion::new([2.0, 0.5], [1.0, 0.4], 5.0).unwrap()).unwrap();
+            let dense = Eigenproblem::new(&local.vibration).unwrap();
+            let squares = dense.undamped_squares();
+            let [elastic, transfer] = traces(&local.vibration);
+            let sum: f64 = squares.iter().sum();
+            assert!((elastic - sum).abs() < 1e-10 * sum, "{elastic} {sum}");
+            let each = if local.vibration.isotropic { 2.0 } else { 1.0 };
+            let speed = 3.0;
+            let damping = robot.damping.alpha * squares.len() as f64 + robot.damping.beta * sum + speed * transfer;
+            let total: f64 = dense.spectrum(speed).unwrap().eigenvalues().map(|l| l.re).sum();
+            assert!((total / each + damping).abs() < 1e-9 * damping, "{total} {damping}");
+            let largest = squares.iter().copied().fold(0.0, f64::max).sqrt();
+            assert!((largest..2.0 * largest).contains(&largest_frequency(&local.vibration)));
+            assert_eq!(super::squares(&local.vibration).len(), squares.len());
+        }
+    }
+}
