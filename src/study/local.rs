@@ -1,7 +1,7 @@
 //! The robot at one pose, ready to be asked for its spectrum, modes and critical speed.
 
 use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration};
-use crate::robot::{Motion, Robot};
+use crate::robot::{Motion, Robot, Vec2};
 use crate::stability::{CriticalSearch, NotConverged, Outcome, Spectra, Spectrum};
 
 /// Statics, motion and the small-vibration problem at one pose.
@@ -23,12 +23,20 @@ impl Local {
     /// # Errors
     /// An infeasible pose with its reason, or `NotConverged`; with the shapes that exist all the same.
     pub fn new(robot: &Robot, motion: &Motion) -> Result<Self, Failure> {
-        let statics = mechanics::solve(robot, motion.position())?;
+        Self::along(robot, mechanics::solve(robot, motion.position())?, motion.direction())
+    }
+
+    /// The same for statics that are known already, and a motion along the unit vector `direction`: they are the same
+    /// for every direction.
+    ///
+    /// # Errors
+    /// A pose where the motion or the vibrations cannot be computed, with the shapes.
+    pub fn along(robot: &Robot, statics: Statics, direction: Vec2) -> Result<Self, Failure> {
         let failed = |statics: Statics| Failure {
             reason: StaticsError::OutOfRange,
             cables: statics.cables.into_iter().map(Some).collect(),
         };
-        let Some(rates) = mechanics::length_rates(robot, &statics, motion.direction()) else {
+        let Some(rates) = mechanics::length_rates(robot, &statics, direction) else {
             return Err(failed(statics));
         };
         let vibration = Vibration::new(robot, &statics, &rates);

@@ -1,0 +1,166 @@
+//! Studies of a robot: lists of tasks that do not depend on each other, so that they can be shared out and answered
+//! in any order.
+
+use nalgebra::Complex;
+
+use crate::robot::{Motion, Robot, RobotSpec, Vec2};
+use crate::study::grid::coarse_first_in_a_row;
+use crate::study::{Directions, Grid, Line, Local, Verdict, compass, evenly, verdict};
+
+/// What a map shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Asked {
+    /// The critical speed.
+    Critical {
+        /// Searched up to this speed in m/s, finite and greater than 0.
+        limit: f64,
+    },
+    /// The largest growth rate at one speed.
+    Growth {
+        /// In m/s.
+        speed: f64,
+    },
+}
+
+/// A study: what is asked for, at [`Self::len`] places. Speeds in m/s; a `limit` is the speed up to which critical
+/// speeds are searched for, finite and greater than 0.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Study {
+    /// Critical speed and frequency along a motion: the paper's Fig. 3.
+    Line {
+        /// Where.
+        line: Line,
+        /// See [`Study`].
+        limit: f64,
+    },
+    /// A map over the workspace.
+    Map {
+        /// Where.
+        grid: Grid,
+        /// In which directions.
+        directions: Directions,
+        /// What it shows.
+        asked: Asked,
+    },
+    /// The critical speed in every direction, see [`compass`].
+    Polar {
+        /// The pose in m.
+        position: Vec2,
+        /// How many directions.
+        count: usize,
+        /// See [`Study`].
+        limit: f64,
+    },
+    /// All eigenvalues from rest to a speed, see [`evenly`]: the Campbell diagram, once joined by
+    /// [`campbell::track`](crate::study::campbell::track).
+    Speeds {
+        /// The pose in m.
+        position: Vec2,
+        /// The direction, of any length but zero.
+        direction: Vec2,
+        /// The highest speed in m/s.
+        to: f64,
+        /// How many speeds.
+        count: usize,
+    },
+    /// The critical speed on several meshes, for [`convergence::richardson`](crate::study::convergence::richardson).
+    Elements {
+        /// The pose in m.
+        position: Vec2,
+        /// The direction, of any length but zero.
+        direction: Vec2,
+        /// Elements per cable, each in [`ELEMENTS`](crate::robot::ELEMENTS).
+        counts: Vec<usize>,
+        /// See [`Study`].
+        limit: f64,
+    },
+}
+
+/// What a study has found at one of its places.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Answer {
+    /// The critical speed: of a line, a map, a polar diagram, a mesh.
+    Critical {
+        /// The unit vector of the motion; of several directions the worst one.
+        direction: Vec2,
+        /// What is known.
+        verdict: Verdict,
+    },
+    /// The largest growth rate max Re λ in 1/s; `None` where the pose is infeasible or no eigenvalues were found.
+    Growth(Option<f64>),
+    /// The eigenvalues in 1/s in rising order of frequency: of a complex pair the one with Im λ > 0, real ones each, of
+    /// those that are equal by the problem's structure one. `None` as for the growth rate.
+    Spectrum(Option<Vec<Complex<f64>>>),
+}
+
+impl Study {
+    /// How many places there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Line { line, .. } => line.count,
+            Self::Map { grid, .. } => grid.len(),
+            Self::Polar { count, .. } | Self::Speeds { count, .. } => *count,
+            Self::Elements { counts, .. } => counts.len(),
+        }
+    }
+
+    /// Whether there is nothing to do.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// All places, each once, in the order in which a picture becomes finer: every 8th first, then every 4th, every
+    /// 2nd, all; meshes from the coarsest to the finest.
+    pub fn order(&self) -> Vec<usize> {
+        match self {
+            Self::Map { grid, .. } => grid.coarse_first(),
+            Self::Elements { counts, .. } => {
+                let mut order: Vec<usize> = (0..counts.len()).collect();
+                order.sort_by_key(|&index| counts[index]);
+                order
+            }
+            Self::Line { .. } | Self::Polar { .. } | Self::Speeds { .. } => coarse_first_in_a_row(self.len()),
+        }
+    }
+
+    /// The answer at one place, which depends on `robot` and the study alone.
+    ///
+    /// Nothing here is an error: a place without a pose (an infeasible one, a position or direction that is not
+    /// finite, no direction) is infeasible, and a mesh that is not allowed has not converged.
+    pub fn answer(&self, robot: &Robot, index: usize) -> Answer {
+        match self {
+            Self::Line { line, limit } => critical(robot, line.position(index), line.direction, *limit),
+            Self::Map { grid, directions, asked } => match *asked {
+                Asked::Critical { limit } => {
+                    let (direction, verdict) = directions.verdict(robot, grid.position(index), limit);
+                    Answer::Critical { direction, verdict }
+                }
+                Asked::Growth { speed } => Answer::Growth(directions.growth(robot, grid.position(index), speed)),
+            },
+            Self::Polar { position, count, limit } => critical(robot, *position, compass(index, *count), *limit),
+            Self::Speeds { position, direction, to, count } => {
+                Answer::Spectrum(spectrum(robot, *position, *direction, evenly(0.0, *to, index, *count)))
+            }
+            Self::Elements { position, direction, counts, limit } => {
+                let elements = counts.get(index).copied().unwrap_or_default();
+                match Robot::new(RobotSpec { elements, ..(**robot).clone() }) {
+                    Ok(robot) => critical(&robot, *position, *direction, *limit),
+                    Err(_) => Answer::Critical { direction: *direction, verdict: Verdict::NotConverged },
+                }
+            }
+        }
+    }
+}
+
+fn critical(robot: &Robot, position: Vec2, direction: Vec2, limit: f64) -> Answer {
+    let Ok(motion) = Motion::new(position, direction, 0.0) else {
+        return Answer::Critical { direction, verdict: Verdict::Infeasible };
+    };
+    Answer::Critical { direction: motion.direction(), verdict: verdict(robot, &motion, limit) }
+}
+
+fn spectrum(robot: &Robot, position: Vec2, direction: Vec2, speed: f64) -> Option<Vec<Complex<f64>>> {
+    let motion = Motion::new(position, direction, speed).ok()?;
+    let spectrum = Local::new(robot, &motion).ok()?.spectrum(speed).ok()?;
+    Some(spectrum.modes().map(|mode| mode.eigenvalue).collect())
+}
