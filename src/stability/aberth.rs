@@ -86,14 +86,6 @@ impl Spectra {
         })
     }
 
-    /// Starts from the last eigenvalues of a problem of the same size that is not far from this one. The result is the
-    /// same but for rounding.
-    pub fn start_from(&mut self, earlier: &Self) {
-        if earlier.squares.len() == self.squares.len() {
-            self.last.clone_from(&earlier.last);
-        }
-    }
-
     /// The frequency Ω in rad/s that no undamped mode exceeds: rounding errors of eigenvalues are small against it.
     pub fn scale(&self) -> f64 {
         self.scale

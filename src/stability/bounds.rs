@@ -216,6 +216,11 @@ impl Bounds {
         shut * (1.0 + MARGIN)
     }
 
+    /// How fast an undamped frequency of `omega` decays at rest, in 1/s: so far from the axis are eigenvalues there.
+    pub(super) fn decay(&self, omega: f64) -> f64 {
+        0.5 * (self.damping.alpha + self.damping.beta * omega * omega)
+    }
+
     /// The number of all cables' frequencies per rad/s.
     pub(super) fn frequency_density(&self) -> f64 {
         self.travels / PI

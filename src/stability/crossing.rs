@@ -73,7 +73,7 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
         plane.cell[1] = to - from;
         plane.follow_trend(from, to, top);
         plane.eligible = bounds.highest_frequency(from);
-        if plane.search(from, to, columns).is_none() {
+        if plane.search(from, to, top).is_none() {
             return Search::Doubt;
         }
 
@@ -180,14 +180,13 @@ impl Plane<'_> {
     }
 
     /// Finds all zeros below the first one between two speeds; `None` in doubt.
-    fn search(&mut self, from: f64, to: f64, columns: f64) -> Option<()> {
+    fn search(&mut self, from: f64, to: f64, top: f64) -> Option<()> {
         let mut left = [self.corner(0.0, from), self.corner(0.0, to)];
         let mut cells = Vec::new();
-        let mut column = 0.0;
+        let mut omega = 0.0;
         let mut first = self.first_from(from).map_or(f64::INFINITY, |zero| zero.speed);
-        while column < columns {
-            column += 1.0;
-            let omega = column * self.cell[0];
+        while omega < top {
+            omega += self.cell[0].max(self.bounds.decay(omega));
             let right = [self.corner(omega, from), self.corner(omega, to)];
             cells.push(Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] });
             while let Some(cell) = cells.pop() {
