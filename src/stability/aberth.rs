@@ -18,6 +18,9 @@ type C64 = Complex<f64>;
 const SWEEPS: usize = 150;
 /// An estimate has converged when its step is this part of it, or [`ROUNDING`] of the largest frequency.
 const CONVERGED: f64 = 1e-9;
+/// Where thousands of overdamped modes crowd together, rounding moves eigenvalues by more than that. After all sweeps
+/// steps of this part are let pass, if the sums over all eigenvalues are right all the same.
+const STAGNATED: f64 = 1e-4;
 const ROUNDING: f64 = 1e-15;
 /// A step is at most this part of the estimate.
 const LARGEST_STEP: f64 = 0.5;
@@ -113,7 +116,8 @@ impl Spectra {
     pub fn iterate(&mut self, speed: f64) -> Option<Spectrum> {
         let found = self.last.take().and_then(|near| self.solve(near, speed));
         let found = found.or_else(|| self.solve(self.at_rest(), speed)).or_else(|| {
-            let apart = self.at_rest().unpaired();
+            let at_rest = self.at_rest();
+            let apart = at_rest.paired.then(|| at_rest.unpaired())?;
             self.solve(apart, speed)
         })?;
         let values = found.all();
@@ -145,7 +149,9 @@ impl Spectra {
     fn solve(&self, mut estimates: Estimates, speed: f64) -> Option<Estimates> {
         let count = estimates.values.len();
         let mut converged = vec![false; count];
+        let mut largest_step = 0.0;
         for _ in 0..SWEEPS {
+            largest_step = 0.0_f64;
             for (j, done) in converged.iter_mut().enumerate().filter(|(_, done)| !**done) {
                 let z = estimates.values[j];
                 let mut step = (self.function.at(z, speed).by_lambda - estimates.others(j)).inv();
@@ -155,6 +161,7 @@ impl Spectra {
                 }
                 let size = z.norm();
                 *done = step.norm() <= (CONVERGED * size).max(ROUNDING * self.scale);
+                largest_step = largest_step.max(step.norm() / size);
                 let largest = LARGEST_STEP * size;
                 if step.norm() > largest {
                     step *= largest / step.norm();
@@ -162,11 +169,15 @@ impl Spectra {
                 estimates.values[j] = z - step;
             }
             if converged.iter().all(|&done| done) {
-                let estimates = estimates.symmetric()?;
-                return self.are_all(&estimates, speed).then_some(estimates);
+                largest_step = CONVERGED;
+                break;
             }
         }
-        None
+        if largest_step > STAGNATED {
+            return None;
+        }
+        let estimates = estimates.symmetric(largest_step)?;
+        self.are_all(&estimates, speed).then_some(estimates)
     }
 
     /// Whether the estimates are all eigenvalues: by their sum, which the largest ones make, and at a few places by the
@@ -210,8 +221,8 @@ impl Estimates {
         sum
     }
 
-    /// The same as exact pairs and real numbers; `None` where they are not that to rounding.
-    fn symmetric(mut self) -> Option<Self> {
+    /// The same as exact pairs and real numbers; `None` where they are not that to about a part of `step`.
+    fn symmetric(mut self, step: f64) -> Option<Self> {
         if self.paired {
             return Some(self);
         }
@@ -220,7 +231,7 @@ impl Estimates {
             let value = self.values[j];
             let gap = |k: usize| (self.values[k].conj() - value).norm();
             let partner = (0..open.len()).min_by(|&a, &b| gap(open[a]).total_cmp(&gap(open[b])));
-            let tolerance = 2.0 * CONVERGED * value.norm();
+            let tolerance = 2.0 * step * value.norm();
             match partner {
                 Some(k) if gap(open[k]) < gap(j) => {
                     let k = open.swap_remove(k);
