@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError};
 use crate::robot::{Motion, Robot};
-use crate::stability::{Critical, CriticalSearch, Eigenproblem, Kind, Method, Outcome, Spectrum};
+use crate::stability::{Critical, CriticalSearch, Eigenproblem, Kind, Method, Outcome, Spectrum, unstable_eigenvalues};
 use crate::study::Local;
 
 /// The name and version of the format.
@@ -172,10 +172,14 @@ impl Report {
             Method::Structured => local.spectrum(speed),
             Method::Dense => Eigenproblem::new(&local.vibration).and_then(|problem| problem.spectrum(speed)),
         };
-        // Statics that are known stay in the report, whatever becomes of the eigenvalues.
+        // What is known stays in the report, and the search goes on, whatever becomes of the eigenvalues.
         let mut report = match spectrum {
             Ok(spectrum) => Self::new(&local, &spectrum),
-            Err(error) => return Self { reason: Some(sentence(&error.to_string())), ..Self::at_rest(&local, speed) },
+            Err(error) => Self {
+                reason: Some(sentence(&error.to_string())),
+                stable: unstable_eigenvalues(&local.vibration, speed).map(|count| count == 0),
+                ..Self::at_rest(&local, speed)
+            },
         };
         let mut search = CriticalSearch::by(method, limit);
         loop {
