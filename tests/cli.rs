@@ -1,50 +1,14 @@
 //! The command line as a shell sees it: what it prints where, and the exit codes.
 #![cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 
-use std::fs;
+mod common;
+
 use std::io::Write as _;
-use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
+use common::shell::{File, refuse, succeed};
 use serde_json::Value;
 use tautline::scenario::{Report, Scenario, presets};
-
-struct Done {
-    code: Option<i32>,
-    out: String,
-    err: String,
-}
-
-/// Runs `tautline` with `arguments` and `input` on standard input.
-fn tautline(arguments: &[&str], input: &str) -> Done {
-    let mut process = Command::new(env!("CARGO_BIN_EXE_tautline"))
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // The program may end without reading.
-    let _ = process.stdin.take().unwrap().write_all(input.as_bytes());
-    let output = process.wait_with_output().unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    Done { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
-}
-
-/// Runs it where all must go well and quietly; gives standard output.
-fn succeed(arguments: &[&str], input: &str) -> String {
-    let Done { code, out, err } = tautline(arguments, input);
-    assert_eq!((code, err.as_str()), (Some(0), ""), "{arguments:?}");
-    out
-}
-
-/// Runs it where the input is bad; gives the lines on standard error.
-fn refuse(arguments: &[&str], input: &str) -> Vec<String> {
-    let Done { code, out, err } = tautline(arguments, input);
-    assert_eq!((code, out.as_str()), (Some(2), ""), "{arguments:?}: {err}");
-    assert!(!err.is_empty() && err.ends_with('\n'), "{err:?}");
-    err.lines().map(str::to_owned).collect()
-}
 
 fn analyze(input: &str, more: &[&str]) -> Value {
     let arguments = [&["analyze", "-", "--json"], more].concat();
@@ -59,27 +23,6 @@ fn at(x: f64) -> String {
     let mut scenario = paper();
     scenario.motion.position[0] = x;
     scenario.to_json()
-}
-
-/// A file for one test.
-struct File(PathBuf);
-
-impl File {
-    fn new(name: &str, content: &[u8]) -> Self {
-        let path = std::env::temp_dir().join(format!("tautline-{}-{name}", std::process::id()));
-        fs::write(&path, content).unwrap();
-        Self(path)
-    }
-
-    fn path(&self) -> &str {
-        self.0.to_str().unwrap()
-    }
-}
-
-impl Drop for File {
-    fn drop(&mut self) {
-        let _ = fs::remove_file(&self.0);
-    }
 }
 
 fn number(value: &Value) -> f64 {

@@ -29,7 +29,11 @@ step_clippy-wasm() {
 
 step_doc() { RUSTDOCFLAGS="-D warnings" cargo doc --no-deps; }
 
-step_test() { cargo test; }
+# Without GNU parallel one test is passed over where a developer runs `cargo test` alone, but not here.
+step_test() {
+    if ! command -v parallel >/dev/null; then web/packages.sh parallel; fi
+    TAUTLINE_TEST_PARALLEL=required cargo test
+}
 
 # Lints compile it with nothing but its own dependencies; its unit tests run with the others.
 step_core() { cargo clippy --no-default-features --lib -- -D warnings; }

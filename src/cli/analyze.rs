@@ -1,10 +1,9 @@
 //! `tautline analyze`: statics, spectrum and critical speed of one scenario.
 
-use std::io::{self, IsTerminal as _, Write as _};
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
 
-use crate::cli::{Answer, read_scenario, text};
+use crate::cli::progress::Progress;
+use crate::cli::{Answer, Output, max_speed, read_scenario, text};
 use crate::scenario::Report;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::stability::Method;
@@ -21,7 +20,8 @@ pub(super) struct Args {
     #[arg(long)]
     json: bool,
     /// Search for the critical speed up to this speed, in m/s.
-    #[arg(long, value_name = "V", default_value_t = DEFAULT_MAX_SPEED, value_parser = speed, allow_hyphen_values = true)]
+    #[arg(long, value_name = "V", default_value_t = DEFAULT_MAX_SPEED, value_parser = max_speed,
+          allow_hyphen_values = true)]
     max_speed: f64,
     /// How to search for it.
     #[arg(long, value_enum, default_value_t = MethodArg::Structured)]
@@ -45,53 +45,18 @@ impl From<MethodArg> for Method {
     }
 }
 
-fn speed(text: &str) -> Result<f64, String> {
-    let speed = text.parse().ok().filter(|&speed: &f64| speed.is_finite() && speed > 0.0);
-    speed.ok_or_else(|| "allowed: a finite number greater than 0".into())
-}
-
 pub(super) fn run(args: &Args) -> Answer {
     let scenario = read_scenario(&args.file)?;
     let (robot, motion) = scenario.to_robot().map_err(|faults| vec![faults.to_string()])?;
-    let mut progress = Progress::new(args.max_speed);
-    let report =
-        Report::analyze_watched(&robot, &motion, args.max_speed, args.method.into(), |speed| progress.show(speed));
+    let limit = args.max_speed;
+    let mut progress = Progress::new();
+    let report = Report::analyze_watched(&robot, &motion, limit, args.method.into(), |speed| {
+        progress.show(|| format!("stable up to {speed:.1} of {limit} m/s "));
+    });
     progress.clear();
     if args.json {
         let json = serde_json::to_string(&report).map_err(|error| vec![error.to_string()])?;
-        return Ok(json + "\n");
+        return Ok(Output::Text(json + "\n"));
     }
-    Ok(text::report(&scenario, &motion, &report))
-}
-
-/// A line on standard error that says how far the search is, where that is a terminal and takes long.
-struct Progress {
-    limit: f64,
-    next: Option<Instant>,
-    shown: bool,
-}
-
-impl Progress {
-    const PATIENCE: Duration = Duration::from_secs(1);
-    const REFRESH: Duration = Duration::from_millis(100);
-
-    fn new(limit: f64) -> Self {
-        let next = io::stderr().is_terminal().then(|| Instant::now() + Self::PATIENCE);
-        Self { limit, next, shown: false }
-    }
-
-    fn show(&mut self, speed: f64) {
-        let now = Instant::now();
-        if self.next.is_some_and(|next| now >= next) {
-            let _ = write!(io::stderr(), "\rstable up to {speed:.1} of {} m/s \u{1b}[K", self.limit);
-            self.next = Some(now + Self::REFRESH);
-            self.shown = true;
-        }
-    }
-
-    fn clear(&self) {
-        if self.shown {
-            let _ = write!(io::stderr(), "\r\u{1b}[K");
-        }
-    }
+    Ok(Output::Text(text::report(&scenario, &motion, &report)))
 }

@@ -1,6 +1,6 @@
 //! `tautline example`: the built-in scenarios.
 
-use crate::cli::Answer;
+use crate::cli::{Answer, Output};
 use crate::scenario::presets::{self, PRESETS};
 
 /// Print a built-in scenario as a scenario file; without a name, list them.
@@ -16,11 +16,11 @@ pub(super) fn run(args: &Args) -> Answer {
             let sentences = preset.description.replace(". ", ".\n    ");
             format!("{}: {}\n    {sentences}\n", preset.name, preset.title)
         };
-        return Ok(PRESETS.iter().map(entry).collect());
+        return Ok(Output::Text(PRESETS.iter().map(entry).collect()));
     };
     let preset = presets::find(name).ok_or_else(|| {
         let names: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
         vec![format!("tautline: no built-in scenario is called {name:?}; there are {}", names.join(", "))]
     })?;
-    Ok(preset.scenario().to_json() + "\n")
+    Ok(Output::Text(preset.scenario().to_json() + "\n"))
 }

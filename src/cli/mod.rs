@@ -2,6 +2,10 @@
 
 mod analyze;
 mod example;
+mod map;
+mod progress;
+mod rows;
+mod sweep;
 mod text;
 
 use std::ffi::OsString;
@@ -48,16 +52,25 @@ Start from a built-in scenario:
   tautline analyze robot.json
 
 Exit codes: 0 done, also where the robot cannot be at rest in its pose; 2 bad input, one line per fault on standard \
-error.";
+error; 130 stopped by Ctrl-C, after a whole row.";
 
 #[derive(Debug, Subcommand)]
 enum Verb {
     Analyze(analyze::Args),
+    Map(map::Args),
+    Sweep(sweep::Args),
     Example(example::Args),
 }
 
-/// What a verb prints on standard output, or one line per fault.
-type Answer = Result<String, Vec<String>>;
+/// What a verb prints on standard output.
+enum Output {
+    Text(String),
+    /// Still to be computed, from input that has been checked.
+    Rows(rows::Rows),
+}
+
+/// A verb's output, or one line per fault.
+type Answer = Result<Output, Vec<String>>;
 
 /// Does what the program's arguments ask for, but for opening the application.
 pub fn run() -> Start {
@@ -68,8 +81,10 @@ pub fn run() -> Start {
 fn run_with(arguments: impl Iterator<Item = OsString>) -> Start {
     let answer = match Args::try_parse_from(arguments) {
         Err(error) if error.use_stderr() => Err(vec![one_line(&error)]),
-        Err(help) => Ok(help.to_string()),
+        Err(help) => Ok(Output::Text(help.to_string())),
         Ok(Args { verb: Some(Verb::Analyze(args)), .. }) => analyze::run(&args),
+        Ok(Args { verb: Some(Verb::Map(args)), .. }) => map::run(&args),
+        Ok(Args { verb: Some(Verb::Sweep(args)), .. }) => sweep::run(&args),
         Ok(Args { verb: Some(Verb::Example(args)), .. }) => example::run(&args),
         Ok(Args { verb: None, file: None }) => return Start::App { scenario: None },
         Ok(Args { verb: None, file: Some(file) }) => match read_scenario(&file) {
@@ -78,7 +93,8 @@ fn run_with(arguments: impl Iterator<Item = OsString>) -> Start {
         },
     };
     Start::Done(match answer {
-        Ok(text) => print(&text),
+        Ok(Output::Text(text)) => write_out(&text).err().unwrap_or(ExitCode::SUCCESS),
+        Ok(Output::Rows(rows)) => rows::print(rows),
         Err(faults) => {
             for fault in &faults {
                 complain(fault);
@@ -99,16 +115,26 @@ fn complain(line: &str) {
     let _ = writeln!(io::stderr(), "{line}");
 }
 
-/// Standard output closed by its reader is no fault: it has seen enough.
-fn print(text: &str) -> ExitCode {
+/// Writes to standard output.
+///
+/// # Errors
+/// The exit code to end with, where nothing more can be written. Standard output closed by its reader is no fault: it
+/// has seen enough.
+fn write_out(text: &str) -> Result<(), ExitCode> {
     let mut out = io::stdout();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            complain(&format!("standard output: {error}"));
-            ExitCode::from(NOT_WRITTEN)
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            return ExitCode::SUCCESS;
         }
-        _ => ExitCode::SUCCESS,
-    }
+        complain(&format!("standard output: {error}"));
+        ExitCode::from(NOT_WRITTEN)
+    })
+}
+
+/// A speed up to which to search, in m/s.
+fn max_speed(text: &str) -> Result<f64, String> {
+    let speed = text.parse().ok().filter(|&speed: &f64| speed.is_finite() && speed > 0.0);
+    speed.ok_or_else(|| "allowed: a finite number greater than 0".into())
 }
 
 /// The first paragraph of clap's message.

@@ -10,7 +10,7 @@ use crate::scenario::{Report, Scenario};
 /// Slower changes of length per metre of travel are none.
 const STILL: f64 = 1e-9;
 
-const CAVEAT: &str = "Note: the criterion freezes time, so a cable being reeled in looks unstable at every speed unless \
+pub(super) const CAVEAT: &str = "Note: the criterion freezes time, so a cable being reeled in looks unstable at every speed unless \
                       damping hides it.";
 
 /// The whole analysis of `scenario`, which moves as `motion`.
@@ -121,13 +121,8 @@ fn stability(text: &mut String, report: &Report) -> fmt::Result {
 }
 
 fn critical_speed(text: &mut String, report: &Report, critical: &CriticalReport) -> fmt::Result {
-    let how = match critical.kind {
-        KindReport::Flutter => format!("flutter at {} Hz", digits(critical.frequency_hz, 4)),
-        KindReport::Divergence => "divergence (no oscillation)".into(),
-    };
-    let (speed, cable) = (digits(critical.speed, 5), critical.cable);
-    let reeled = report.cables.get(cable - 1).map_or("", |cable| reeling(cable.length_rate));
-    writeln!(text, "Critical speed: {speed} m/s, {how}, in cable {cable}, which is {reeled}")?;
+    let reeled = report.cables.get(critical.cable - 1).map_or("", |cable| reeling(cable.length_rate));
+    writeln!(text, "Critical speed: {}, which is {reeled}", critical_sentence(critical))?;
     let margin = critical.speed - report.speed;
     let (now, size) = (digits(report.speed, 6), digits(margin.abs(), 4));
     if margin > 0.0 {
@@ -138,8 +133,17 @@ fn critical_speed(text: &mut String, report: &Report, critical: &CriticalReport)
     }
 }
 
+/// Speed, kind and cable.
+pub(super) fn critical_sentence(critical: &CriticalReport) -> String {
+    let how = match critical.kind {
+        KindReport::Flutter => format!("flutter at {} Hz", digits(critical.frequency_hz, 4)),
+        KindReport::Divergence => "divergence (no oscillation)".into(),
+    };
+    format!("{} m/s, {how}, in cable {}", digits(critical.speed, 5), critical.cable)
+}
+
 /// `number` to so many significant digits, without zeros at the end; with an exponent where it is very large or small.
-fn digits(number: f64, significant: usize) -> String {
+pub(super) fn digits(number: f64, significant: usize) -> String {
     let rounded = format!("{number:.*e}", significant - 1);
     let exponent = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());
     let value: f64 = rounded.parse().unwrap_or(number);

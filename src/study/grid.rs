@@ -166,10 +166,12 @@ mod tests {
         assert_eq!(tenths, [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0]);
         assert_eq!((evenly(1.0, 4.0, 0, 1), evenly(0.1, 0.1, 1, 3)), (2.5, 0.1));
         for i in 0..7 {
-            assert_eq!(evenly(-0.3, 0.3, i, 7), -evenly(-0.3, 0.3, 6 - i, 7));
+            // To the last bit, and without a minus before zero.
+            let sum = evenly(-0.3, 0.3, i, 7) + evenly(-0.3, 0.3, 6 - i, 7);
+            assert_eq!(sum.to_bits(), 0);
         }
-        assert_eq!(evenly(-1e308, 1e308, 1, 5), -0.5e308);
-        assert_eq!(evenly(1e308, 1.5e308, 1, 3), 1.25e308);
+        let far = vec![evenly(-1e308, 1e308, 1, 5), evenly(1e308, 1.5e308, 1, 3)];
+        assert_eq!(far, [-0.5e308, 1.25e308]);
     }
 
     #[test]
@@ -200,11 +202,14 @@ mod tests {
         assert_eq!(ends([2.0, 1.0], [-3.0, 0.0]), [[10.0, 1.0], [-10.0, 1.0]]);
         assert_eq!(ends([2.0, 1.0], [0.0, -1.0]), [[2.0, 5.0], [2.0, -5.0]]);
         let [from, to] = ends([0.0, 0.0], [1.0, 1.0]);
-        assert!((from[0] + 5.0).abs() < 1e-12 && from[1] == -5.0 && (to[0] - 5.0).abs() < 1e-12 && to[1] == 5.0);
+        for (end, at) in [(from, -5.0), (to, 5.0)] {
+            assert!(end.iter().all(|coordinate| (coordinate - at).abs() < 1e-12), "{end:?}");
+        }
         // Outside, and in a direction that hardly leaves an axis.
         assert_eq!(ends([12.0, 0.0], [1.0, 0.0]), [[-10.0, 0.0], [12.0, 0.0]]);
         assert_eq!(ends([12.0, 5.0], [0.0, 1.0]), [[12.0, -5.0], [12.0, 5.0]]);
-        assert_eq!(ends([0.0, 0.0], [1.0, 1e-320]).map(|end| end[0]), [-10.0, 10.0]);
+        let [from, to] = ends([0.0, 0.0], [1.0, 1e-320]);
+        assert_eq!((from[0], to[0]), (-10.0, 10.0));
         assert!(ends([10.0, 5.0], [1.0, -1.0]).iter().flatten().all(|c| c.is_finite()));
     }
 }

@@ -4,6 +4,7 @@
 pub mod dense;
 pub mod hung;
 pub mod random;
+pub mod shell;
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};

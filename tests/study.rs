@@ -1,0 +1,545 @@
+//! Studies: their tasks are what the analysis of one pose gives, in an order that makes a picture finer; modes are
+//! joined over the speeds; the limit of fine meshes is right.
+
+mod common;
+
+use std::collections::HashSet;
+use std::f64::consts::TAU;
+
+use common::close;
+use common::random::{config, moving_robot};
+use nalgebra::Complex;
+use proptest::prelude::*;
+use tautline::robot::{Linearisation, RobotSpec, Vec2, paper, paper_spec};
+use tautline::stability::{Critical, Kind, Outcome};
+use tautline::study::campbell::{Track, track};
+use tautline::study::convergence::{Convergence, Doubt, Extrapolation, richardson};
+use tautline::study::{Answer, Asked, Directions, Grid, Line, Study, Verdict, compass, evenly, verdict};
+use tautline::{Local, Motion, Robot};
+
+type C64 = Complex<f64>;
+
+const LIMIT: f64 = 40.0;
+
+fn motion(position: Vec2, direction: Vec2) -> Motion {
+    Motion::new(position, direction, 0.0).expect("a motion")
+}
+
+/// What the analysis of one pose gives.
+fn expected(robot: &Robot, position: Vec2, direction: Vec2) -> Verdict {
+    let Ok(local) = Local::new(robot, &motion(position, direction)) else { return Verdict::Infeasible };
+    match local.critical_speed(LIMIT) {
+        Ok(Outcome::Found(critical)) => Verdict::Critical(critical),
+        Ok(Outcome::NoneUpTo(limit)) => Verdict::NoneUpTo(limit),
+        Err(_) => Verdict::NotConverged,
+    }
+}
+
+/// The answer where a critical speed is asked for.
+fn critical(study: &Study, robot: &Robot, index: usize) -> (Vec2, Verdict) {
+    match study.answer(robot, index) {
+        Answer::Critical { direction, verdict } => (direction, verdict),
+        other => panic!("{other:?}"),
+    }
+}
+
+fn speed(verdict: &Verdict) -> Option<f64> {
+    verdict.critical().map(|critical| critical.speed)
+}
+
+#[test]
+fn every_task_is_the_analysis_of_its_pose() {
+    let robot = paper().expect("the paper's robot");
+    let up_right = Vec2::new(1.0, 1.0);
+    let line = Line::through(&robot, &motion(Vec2::new(1.0, 1.0), up_right), 5);
+    let grid = Grid::of(&robot, 5, 4);
+    let position = Vec2::new(2.0, 1.0);
+    let one = Directions::One(up_right);
+    let asked = Asked::Critical { limit: LIMIT };
+    let (mut feasible, mut infeasible) = (0, 0);
+    for (study, places) in [
+        (Study::Line { line, limit: LIMIT }, (0..5).map(|i| (line.position(i), up_right)).collect::<Vec<_>>()),
+        (Study::Map { grid, directions: one, asked }, (0..20).map(|i| (grid.position(i), up_right)).collect()),
+        (Study::Polar { position, count: 7, limit: LIMIT }, (0..7).map(|i| (position, compass(i, 7))).collect()),
+    ] {
+        assert_eq!(study.len(), places.len());
+        for (i, (position, along)) in places.into_iter().enumerate() {
+            let (direction, found) = critical(&study, &robot, i);
+            assert_eq!(direction, motion(position, along).direction());
+            assert_eq!(found, expected(&robot, position, along), "at {position:?} along {along:?}");
+            assert_eq!(found, verdict(&robot, &motion(position, along), LIMIT));
+            *(if found.is_feasible() { &mut feasible } else { &mut infeasible }) += 1;
+        }
+    }
+    assert!(feasible > 10 && infeasible > 5, "{feasible} {infeasible}");
+
+    let counts = vec![8, 4, 16, 1000];
+    let study = Study::Elements { position, direction: up_right, counts: counts.clone(), limit: LIMIT };
+    for (i, &elements) in counts[..3].iter().enumerate() {
+        let robot = Robot::new(RobotSpec { elements, ..paper_spec() }).expect("a robot");
+        assert_eq!(critical(&study, &robot, i).1, expected(&robot, position, up_right));
+    }
+    assert_eq!((critical(&study, &robot, 3).1, study.order()), (Verdict::NotConverged, vec![1, 0, 2, 3]));
+}
+
+#[test]
+fn growth_and_spectra_are_those_of_the_pose() {
+    let robot = paper().expect("the paper's robot");
+    let (position, direction) = (Vec2::new(5.0, 0.0), Vec2::new(0.0, 1.0));
+    let local = Local::new(&robot, &motion(position, direction)).map_err(|f| f.reason).expect("a pose");
+    let grid = Grid::of(&robot, 5, 3);
+    let growth = |directions, index| {
+        let study = Study::Map { grid, directions, asked: Asked::Growth { speed: 6.0 } };
+        match study.answer(&robot, index) {
+            Answer::Growth(growth) => growth,
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!(grid.position(8), position);
+    let spectrum = local.spectrum(6.0).expect("a spectrum");
+    assert_eq!(growth(Directions::One(direction), 8), Some(spectrum.growth_rate()));
+    let singles = (0..8).map(|k| growth(Directions::One(compass(k, 8)), 8).expect("a rate"));
+    assert_eq!(growth(Directions::Worst(8), 8), singles.reduce(f64::max));
+    assert_eq!((growth(Directions::One(direction), 0), growth(Directions::Worst(8), 0)), (None, None));
+
+    let study = Study::Speeds { position, direction, to: 12.0, count: 5 };
+    let Answer::Spectrum(Some(eigenvalues)) = study.answer(&robot, 2) else { panic!("no spectrum") };
+    assert_eq!(eigenvalues, spectrum.modes().map(|mode| mode.eigenvalue).collect::<Vec<_>>());
+    let nowhere = Study::Speeds { position: Vec2::new(9.0, 0.0), direction, to: 12.0, count: 5 };
+    assert_eq!(nowhere.answer(&robot, 2), Answer::Spectrum(None));
+}
+
+#[test]
+fn what_is_no_pose_is_infeasible() {
+    let robot = paper().expect("the paper's robot");
+    let grid = Grid::of(&robot, 1, 1);
+    let asked = Asked::Critical { limit: LIMIT };
+    let (nowhere, origin) = (Vec2::new(f64::NAN, 0.0), Vec2::zeros());
+    for study in [
+        Study::Polar { position: nowhere, count: 1, limit: LIMIT },
+        Study::Elements { position: origin, direction: Vec2::zeros(), counts: vec![10], limit: LIMIT },
+        Study::Map { grid, directions: Directions::One(nowhere), asked },
+        Study::Map { grid, directions: Directions::Worst(0), asked },
+        Study::Map { grid: Grid { low: nowhere, ..grid }, directions: Directions::Worst(16), asked },
+    ] {
+        assert_eq!(critical(&study, &robot, 0).1, Verdict::Infeasible, "{study:?}");
+    }
+    let study = Study::Speeds { position: origin, direction: Vec2::x(), to: f64::INFINITY, count: 2 };
+    assert_eq!(study.answer(&robot, 1), Answer::Spectrum(None));
+}
+
+/// Every index once; what a picture of half the resolution needs comes first, and what one of a quarter needs before
+/// that.
+#[test]
+fn orders_are_coarse_first() {
+    let robot = paper().expect("the paper's robot");
+    for (nx, ny) in [(41, 21), (40, 1), (1, 17), (8, 8), (3, 2), (1, 1), (0, 5)] {
+        let study = Study::Map {
+            grid: Grid::of(&robot, nx, ny),
+            directions: Directions::Worst(16),
+            asked: Asked::Critical { limit: LIMIT },
+        };
+        let order = study.order();
+        assert_eq!((order.len(), order.iter().collect::<HashSet<_>>().len()), (nx * ny, nx * ny));
+        assert!(order.iter().all(|&index| index < study.len()));
+        for step in [8, 4, 2] {
+            let coarse = nx.div_ceil(step) * ny.div_ceil(step);
+            let in_it = |index: usize| (index % nx).is_multiple_of(step) && (index / nx).is_multiple_of(step);
+            assert!(order[..coarse].iter().all(|&index| in_it(index)), "every {step}th of {nx} × {ny}");
+        }
+    }
+    let study = Study::Polar { position: Vec2::zeros(), count: 12, limit: LIMIT };
+    assert_eq!(study.order(), [0, 8, 4, 2, 6, 10, 1, 3, 5, 7, 9, 11]);
+}
+
+/// The paper's robot is its own mirror image: its tension laws change places with its cables.
+#[test]
+fn the_papers_map_is_its_mirror_image() {
+    let robot = paper().expect("the paper's robot");
+    let grid = Grid::of(&robot, 11, 5);
+    let asked = Asked::Critical { limit: LIMIT };
+    let mut compared = 0;
+    for (direction, mirrored) in [([1.0, 0.0], [-1.0, 0.0]), ([0.6, -0.8], [-0.6, -0.8]), ([0.0, 1.0], [0.0, 1.0])] {
+        let map = |direction: [f64; 2]| Study::Map { grid, directions: Directions::One(direction.into()), asked };
+        for index in 0..grid.len() {
+            let other = index - index % 11 + (10 - index % 11);
+            let (a, b) = (critical(&map(direction), &robot, index).1, critical(&map(mirrored), &robot, other).1);
+            match (&a, &b) {
+                (Verdict::Critical(a), Verdict::Critical(b)) => {
+                    close(a.speed, b.speed, 1e-6, format!("{index}: critical speed"));
+                    close(a.frequency_hz(), b.frequency_hz(), 1e-6, format!("{index}: frequency"));
+                    assert_eq!(a.kind, b.kind, "{index}");
+                    // On its way up the middle the robot is its own mirror image; both sides share the mode.
+                    if !(index % 11 == 5 && direction[0] == 0.0) {
+                        assert_eq!(a.cable, [1, 0, 3, 2][b.cable], "{index}");
+                    }
+                    compared += 1;
+                }
+                _ => assert_eq!(a, b, "{index}"),
+            }
+        }
+    }
+    assert!(compared > 60, "only {compared}");
+}
+
+#[test]
+fn the_worst_direction_is_the_lowest_of_all() {
+    let robot = paper().expect("the paper's robot");
+    let grid = Grid::of(&robot, 9, 5);
+    let asked = Asked::Critical { limit: LIMIT };
+    let directions = Directions::Worst(Directions::WORST_OF);
+    let map = Study::Map { grid, directions, asked };
+    let mut compared = 0;
+    for index in 0..grid.len() {
+        let (direction, worst) = critical(&map, &robot, index);
+        let polar = Study::Polar { position: grid.position(index), count: 16, limit: LIMIT };
+        let singles: Vec<(Vec2, Verdict)> = (0..16).map(|k| critical(&polar, &robot, k)).collect();
+        let lowest = singles.iter().filter_map(|(_, single)| speed(single)).reduce(f64::min);
+        match lowest {
+            Some(lowest) => {
+                close(speed(&worst).expect("a critical speed"), lowest, 1e-8, index);
+                let (_, single) = singles.iter().find(|(single, _)| *single == direction).expect("one of the 16");
+                close(speed(single).expect("a critical speed"), lowest, 1e-8, index);
+                compared += 1;
+            }
+            None => assert_eq!(worst, singles[0].1),
+        }
+    }
+    assert!(compared > 10, "only {compared}");
+    // Where nothing is critical up to the limit, the limit is told, not where a search ended.
+    let low = Study::Map { grid, directions, asked: Asked::Critical { limit: 0.25 } };
+    assert_eq!(critical(&low, &robot, 22).1, Verdict::NoneUpTo(0.25));
+}
+
+#[test]
+fn compass_directions_are_equally_spaced_unit_vectors() {
+    for count in [1, 2, 3, 4, 16, 36] {
+        for k in 0..count {
+            let direction = compass(k, count);
+            let angle = TAU * k as f64 / count as f64;
+            assert!((direction - Vec2::new(angle.cos(), angle.sin())).norm() < 1e-14, "{k} of {count}");
+        }
+    }
+    let axes = [0, 4, 8, 12].map(|k| compass(k, 16));
+    assert_eq!(axes, [Vec2::x(), Vec2::y(), -Vec2::x(), -Vec2::y()]);
+}
+
+/// The paper's two findings, docs/theory.md section 10: towards the border the critical speed falls and the frequency
+/// rises.
+#[test]
+fn towards_the_border_the_critical_speed_falls_and_the_frequency_rises() {
+    let robot = paper().expect("the paper's robot");
+    let line = Line::through(&robot, &motion(Vec2::new(3.0, 0.0), Vec2::x()), 41);
+    let study = Study::Line { line, limit: LIMIT };
+    let at = |x: f64| {
+        let index = (0..study.len()).find(|&i| line.position(i) == Vec2::new(x, 0.0)).expect("a point of the line");
+        critical(&study, &robot, index).1
+    };
+    let figures = [
+        (0.0, 11.2990, 0.27155, 3),
+        (2.0, 10.8539, 0.32172, 3),
+        (4.0, 10.5393, 0.97313, 3),
+        (6.0, 10.0125, 1.31195, 3),
+        (7.0, 2.7584, 2.7113, 0),
+    ];
+    let mut before: Option<Critical> = None;
+    for (x, speed, frequency, cable) in figures {
+        let Verdict::Critical(critical) = at(x) else { panic!("nothing critical at x = {x}") };
+        close(critical.speed, speed, 1e-4, format!("critical speed at x = {x}"));
+        close(critical.frequency_hz(), frequency, 1e-4, format!("frequency at x = {x}"));
+        assert_eq!((critical.cable, critical.kind), (cable, Kind::Flutter), "at x = {x}");
+        if let Some(before) = before {
+            assert!(critical.speed < before.speed && critical.frequency_hz() > before.frequency_hz(), "at x = {x}");
+        }
+        before = Some(critical);
+    }
+    assert_eq!((at(-10.0), at(7.5)), (Verdict::Infeasible, Verdict::Infeasible));
+    // While one mode stays the first to cross, from the middle to x = 2.5, both are monotone from point to point.
+    for x in [0.0, 0.5, 1.0, 1.5, 2.0] {
+        let (Verdict::Critical(here), Verdict::Critical(there)) = (at(x), at(x + 0.5)) else { panic!("at x = {x}") };
+        assert!(there.speed < here.speed && there.frequency_hz() > here.frequency_hz(), "at x = {x}");
+    }
+}
+
+/// Fails unless every eigenvalue with Im λ ≥ 0 of every speed belongs to exactly one track, each track to successive
+/// speeds.
+fn check_tracks(spectra: &[(f64, Vec<C64>)], tracks: &[Track]) {
+    let bits = |value: C64| (value.re.to_bits(), value.im.to_bits());
+    for (k, (speed, values)) in spectra.iter().enumerate() {
+        let mut given: Vec<_> = values.iter().filter(|value| value.im >= 0.0).map(|&value| bits(value)).collect();
+        let points = tracks.iter().flat_map(|track| &track.points);
+        let mut tracked: Vec<_> =
+            points.filter(|(at, _)| at.to_bits() == speed.to_bits()).map(|&(_, value)| bits(value)).collect();
+        given.sort_unstable();
+        tracked.sort_unstable();
+        assert_eq!(tracked, given, "at speed {k}");
+    }
+    for track in tracks {
+        let first = spectra
+            .iter()
+            .position(|(speed, _)| speed.to_bits() == track.points[0].0.to_bits())
+            .expect("a speed of the study");
+        for ((speed, _), (at, _)) in track.points.iter().zip(&spectra[first..]) {
+            assert_eq!(at.to_bits(), speed.to_bits());
+        }
+    }
+}
+
+/// A mode whose eigenvalue is a polynomial in the speed.
+#[derive(Clone, Copy, Debug)]
+struct Smooth {
+    at_rest: C64,
+    slope: C64,
+    curvature: C64,
+}
+
+impl Smooth {
+    fn at(self, v: f64) -> C64 {
+        self.at_rest + self.slope * v + self.curvature * (v * v)
+    }
+}
+
+fn smooth() -> impl Strategy<Value = Smooth> {
+    ((-5.0..0.0, 15.0..70.0), (-1.0..1.0, -1.5..1.5), (-0.05..0.05, -0.05..0.05)).prop_map(
+        |((a, b), (c, d), (e, f))| Smooth { at_rest: C64::new(a, b), slope: C64::new(c, d), curvature: C64::new(e, f) },
+    )
+}
+
+/// Two modes as near each other as this at one of the speeds cannot be told apart for certain.
+fn nearest(modes: &[Smooth], speeds: &[f64]) -> f64 {
+    let pairs = (0..modes.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let gap = |(i, j): (usize, usize)| {
+        speeds.iter().map(|&v| (modes[i].at(v) - modes[j].at(v)).norm()).fold(f64::INFINITY, f64::min)
+    };
+    pairs.map(gap).fold(f64::INFINITY, f64::min)
+}
+
+proptest! {
+    #![proptest_config(config(200))]
+
+    /// Modes that cross in frequency, given in any order, are told apart.
+    #[test]
+    fn smooth_modes_are_found_again(
+        modes in prop::collection::vec(smooth(), 1..25),
+        seed in 0_usize..1000,
+    ) {
+        let speeds: Vec<f64> = (0..61).map(|i| evenly(0.0, 6.0, i, 61)).collect();
+        // From rest on no slope is known yet.
+        prop_assume!(nearest(&modes, &speeds[..1]) > 0.5 && nearest(&modes, &speeds) > 0.05);
+        let spectra: Vec<(f64, Vec<C64>)> = speeds
+            .iter()
+            .enumerate()
+            .map(|(k, &v)| {
+                let mut values: Vec<C64> = modes.iter().map(|mode| mode.at(v)).collect();
+                values.rotate_left((seed + 7 * k) % modes.len());
+                // Their mirror images are left out.
+                let mirrored: Vec<C64> = values.iter().map(Complex::conj).collect();
+                (v, [values, mirrored].concat())
+            })
+            .collect();
+        prop_assume!(spectra.iter().flat_map(|(_, values)| &values[..modes.len()]).all(|value| value.im > 0.5));
+        let tracks = track(&spectra);
+        check_tracks(&spectra, &tracks);
+        prop_assert_eq!(tracks.len(), modes.len());
+        for track in &tracks {
+            let mode = modes.iter().find(|mode| mode.at_rest == track.points[0].1).expect("a mode");
+            for &(v, value) in &track.points {
+                prop_assert_eq!(value, mode.at(v));
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(30))]
+
+    /// Nothing is lost or doubled, and looking more closely changes hardly anything.
+    #[test]
+    fn tracks_of_random_robots_are_whole((robot, motion) in moving_robot(2..12)) {
+        let study = Study::Speeds { position: motion.position(), direction: motion.direction(), to: 6.0, count: 121 };
+        let answers = (0..study.len()).map(|i| match study.answer(&robot, i) {
+            Answer::Spectrum(spectrum) => spectrum.map(|values| (evenly(0.0, 6.0, i, 121), values)),
+            other => panic!("{other:?}"),
+        });
+        let fine: Option<Vec<(f64, Vec<C64>)>> = answers.collect();
+        prop_assume!(fine.is_some());
+        let fine = fine.unwrap_or_default();
+        let coarse: Vec<(f64, Vec<C64>)> = fine.iter().step_by(2).cloned().collect();
+        let (of_fine, of_coarse) = (track(&fine), track(&coarse));
+        check_tracks(&fine, &of_fine);
+        check_tracks(&coarse, &of_coarse);
+        let kept: HashSet<u64> = coarse.iter().map(|(speed, _)| speed.to_bits()).collect();
+        let links = |tracks: &[Track]| -> HashSet<[u64; 6]> {
+            let bits = |(v, value): (f64, C64)| [v, value.re, value.im].map(f64::to_bits);
+            tracks
+                .iter()
+                .flat_map(|track| {
+                    let points: Vec<_> =
+                        track.points.iter().copied().filter(|(v, _)| kept.contains(&v.to_bits())).collect();
+                    points.windows(2).map(|w| (bits(w[0]), bits(w[1]))).collect::<Vec<_>>()
+                })
+                .map(|([a, b, c], [d, e, f])| [a, b, c, d, e, f])
+                .collect()
+        };
+        let (of_fine, of_coarse) = (links(&of_fine), links(&of_coarse));
+        let same = of_fine.intersection(&of_coarse).count();
+        prop_assert!(100 * same >= 97 * of_coarse.len(), "{same} of {}", of_coarse.len());
+    }
+}
+
+/// λ² + 2 c λ + 1 = 0: a pair up to c = 1, two real eigenvalues beyond.
+fn oscillator(c: f64, scale: f64) -> Vec<C64> {
+    let square = c * c - 1.0;
+    if square < 0.0 {
+        vec![C64::new(-c, (-square).sqrt()) * scale]
+    } else {
+        vec![C64::new(-c + square.sqrt(), 0.0) * scale, C64::new(-c - square.sqrt(), 0.0) * scale]
+    }
+}
+
+#[test]
+fn an_overdamped_pair_goes_on_as_two_real_tracks_and_back() {
+    // A second pair far away and real eigenvalues nearby do not matter.
+    let others = |v: f64| vec![C64::new(-0.2, 9.0 + v), C64::new(-0.1 - 0.05 * v, 0.0), C64::new(-30.0 + v, 0.0)];
+    let speeds = |count| (0..count).map(move |i| evenly(0.0, 2.0, i, count));
+    for count in [22, 40, 201] {
+        let there: Vec<(f64, Vec<C64>)> =
+            speeds(count).map(|v| (v, [oscillator(v, 3.0), others(v)].concat())).collect();
+        let tracks = track(&there);
+        check_tracks(&there, &tracks);
+        let lengths: Vec<usize> = tracks.iter().map(|track| track.points.len()).collect();
+        let real = there.iter().filter(|(v, _)| *v >= 1.0).count();
+        assert_eq!(lengths, [count, count, count, count, real]);
+        assert!(tracks[0].points[0].1.im > 2.9 && tracks[0].points[count - 1].1.im == 0.0);
+
+        let back: Vec<(f64, Vec<C64>)> =
+            speeds(count).map(|v| (v, [oscillator(2.0 - v, 3.0), others(v)].concat())).collect();
+        let tracks = track(&back);
+        check_tracks(&back, &tracks);
+        let mut lengths: Vec<usize> = tracks.iter().map(|track| track.points.len()).collect();
+        lengths.sort_unstable();
+        let real = back.iter().filter(|(_, values)| values.len() == 5).count();
+        assert_eq!(lengths, [real, count, count, count, count]);
+    }
+}
+
+#[test]
+fn tracks_of_nothing_and_of_gaps() {
+    assert!(track(&[]).is_empty());
+    let value = C64::new(-1.0, 2.0);
+    let spectra = [(0.0, vec![value, value]), (1.0, vec![]), (2.0, vec![value, value.conj()])];
+    let tracks = track(&spectra);
+    check_tracks(&spectra, &tracks);
+    assert_eq!(tracks.len(), 3);
+}
+
+/// Isotropic problems give every eigenvalue twice; the distinct ones are tracked.
+#[test]
+fn double_eigenvalues_are_tracked_once() {
+    let spectrum = |linearisation| {
+        let robot = Robot::new(RobotSpec { linearisation, ..paper_spec() }).expect("a robot");
+        let study = Study::Speeds { position: Vec2::zeros(), direction: Vec2::x(), to: 4.0, count: 2 };
+        match study.answer(&robot, 1) {
+            Answer::Spectrum(Some(values)) => {
+                values.iter().map(|value| if value.im > 0.0 { 2 } else { 1 }).sum::<usize>()
+            }
+            other => panic!("{other:?}"),
+        }
+    };
+    assert_eq!((spectrum(Linearisation::Secant), spectrum(Linearisation::Tangent)), (74, 148));
+}
+
+fn flutter(speed: f64, frequency: f64, cable: usize) -> Verdict {
+    let eigenvalue = C64::new(0.0, TAU * frequency);
+    Verdict::Critical(Critical { speed, eigenvalue, kind: Kind::Flutter, cable })
+}
+
+fn limit(meshes: &[(usize, Verdict)], today: usize) -> Extrapolation {
+    match richardson(meshes, today) {
+        Convergence::Limit(extrapolation) => extrapolation,
+        other @ Convergence::Unknown(_) => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn richardson_finds_order_and_limit() {
+    for order in [1.2, 2.0, 2.7] {
+        let law = |n: usize| 10.0 + 3.0 * (n as f64).powf(-order);
+        let meshes: Vec<_> = [80, 10, 20, 40, 14].map(|n| (n, flutter(law(n), 0.3, 3))).into();
+        let found = limit(&meshes, 10);
+        assert!(found.estimated);
+        close(found.order, order, 1e-6, "order");
+        close(found.limit, 10.0, 1e-8, "limit");
+        close(found.error.expect("an error"), law(10) - 10.0, 1e-8, "error");
+        assert_eq!(limit(&meshes, 12).error, None);
+    }
+    // Without three meshes in a doubling ratio the order is the theoretical one.
+    let law = |n: f64| 5.0 - 7.0 / (n * n);
+    let found = limit(&[(10, flutter(law(10.0), 0.3, 3)), (14, flutter(law(14.0), 0.3, 3))], 14);
+    assert!(!found.estimated);
+    close(found.limit, 5.0, 1e-12, "limit");
+    // Nothing left to gain.
+    let same = [(10, flutter(4.0, 0.3, 3)), (20, flutter(4.0, 0.3, 3)), (40, flutter(4.0, 0.3, 3))];
+    assert_eq!(limit(&same, 10), Extrapolation { limit: 4.0, order: 2.0, estimated: false, error: Some(0.0) });
+}
+
+#[test]
+fn richardson_says_when_it_cannot_tell() {
+    let divergence =
+        |speed| Verdict::Critical(Critical { speed, eigenvalue: C64::new(0.0, 0.0), kind: Kind::Divergence, cable: 3 });
+    let f = |n: usize, speed: f64| (n, flutter(speed, 0.3, 3));
+    for (meshes, doubt) in [
+        (vec![], Doubt::NoneCritical),
+        (vec![f(10, 9.0), (20, Verdict::NoneUpTo(40.0))], Doubt::NoneCritical),
+        (vec![f(10, 9.0)], Doubt::TooFew),
+        (vec![(10, Verdict::Infeasible), f(20, 9.0)], Doubt::TooFew),
+        (vec![f(10, 9.0), (20, Verdict::NotConverged)], Doubt::TooFew),
+        (vec![f(10, 9.0), f(20, 8.9), (40, divergence(8.8))], Doubt::Changes),
+        (vec![f(10, 9.0), f(20, 8.9), (40, flutter(8.8, 0.3, 1))], Doubt::Changes),
+        (vec![f(10, 9.0), f(20, 8.9), (40, flutter(8.8, 0.5, 3))], Doubt::Changes),
+        (vec![f(10, 9.0), f(20, 8.9), f(40, 8.7)], Doubt::Unsettled),
+        (vec![f(10, 9.0), f(20, 8.9), f(40, 9.0)], Doubt::Unsettled),
+    ] {
+        assert_eq!(richardson(&meshes, 10), Convergence::Unknown(doubt), "{meshes:?}");
+    }
+    // A mesh before the change does not count, its error does.
+    let meshes = [(8, flutter(12.0, 1.0, 0)), f(10, 9.0), f(20, 8.25)];
+    let found = limit(&meshes, 8);
+    close(found.limit, 8.0, 1e-12, "limit");
+    close(found.error.expect("an error"), 4.0, 1e-12, "error");
+}
+
+/// docs/theory.md section 10. The limit that meshes up to 80 elements promise is where one of 160 elements is going.
+#[test]
+fn the_papers_robot_converges() {
+    let robot = paper().expect("the paper's robot");
+    let meshes = |x: f64, counts: &[usize]| -> Vec<(usize, Verdict)> {
+        let (position, direction) = (Vec2::new(x, 0.0), Vec2::x());
+        let study = Study::Elements { position, direction, counts: counts.to_vec(), limit: LIMIT };
+        counts.iter().enumerate().map(|(i, &n)| (n, critical(&study, &robot, i).1)).collect()
+    };
+    let at_origin = meshes(0.0, &[10, 20, 40, 80, 160]);
+    for ((n, found), expected) in at_origin.iter().zip([11.2990, 11.0743, 11.0141, 10.9986]) {
+        close(speed(found).expect("a critical speed"), expected, 1e-4, format!("critical speed with {n} elements"));
+    }
+    let found = limit(&at_origin[..4], 10);
+    assert!(found.estimated);
+    close(found.order, 1.96, 0.01, "order");
+    close(found.limit, 10.9932, 1e-4, "limit");
+    close(found.error.expect("an error"), 0.306, 1e-3, "error with 10 elements");
+    let [at_80, at_160] = [3, 4].map(|i| speed(&at_origin[i].1).expect("a critical speed"));
+    close(at_160, found.limit + (at_80 - found.limit) / 4.0, 3e-4, "critical speed with 160 elements");
+
+    // Close to the border meshes disagree on the mode.
+    for (x, n, cable, kind) in [
+        (6.0, 28, 3, Kind::Flutter),
+        (6.0, 40, 0, Kind::Divergence),
+        (7.0, 10, 0, Kind::Flutter),
+        (7.0, 14, 0, Kind::Divergence),
+    ] {
+        let found = meshes(x, &[n]);
+        let critical = found[0].1.critical().expect("a critical speed");
+        assert_eq!((critical.cable, critical.kind), (cable, kind), "{n} elements at x = {x}");
+    }
+    assert_eq!(richardson(&meshes(6.0, &[20, 28, 40]), 28), Convergence::Unknown(Doubt::Changes));
+}
