@@ -10,13 +10,10 @@
 
 use nalgebra::{Complex, Matrix2};
 
-use super::jet::{Jet, Planar};
-use crate::mechanics::{Element, Hub, Vibration};
+use super::jet::{Jet, Number, Pair, Planar, Real};
+use crate::mechanics::{Chain, Element, Hub, Vibration};
 
 type C64 = Complex<f64>;
-
-/// So many cables are eliminated side by side: each step waits for the one before it in its own cable only.
-const SIDE_BY_SIDE: usize = 4;
 
 /// ln det Q and its derivatives at one (λ, v).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,61 +38,59 @@ pub struct Characteristic {
 
 #[derive(Clone, Debug)]
 enum Kind {
-    Scalar { nodes: Vec<Node>, hub: Sum },
-    Planar { nodes: Vec<PlanarNode>, hub: PlanarSum },
+    Scalar { sides: Vec<SideBySide<Node>>, hub: Sum<f64> },
+    Planar { sides: Vec<SideBySide<PlanarNode>>, hub: PlanarSum<f64> },
+}
+
+/// Two cables of the same length that are eliminated side by side; the second may be there for symmetry only.
+#[derive(Clone, Debug)]
+struct SideBySide<N> {
+    /// From the winches to the platform.
+    nodes: Vec<N>,
+    /// How many of the two count.
+    cables: usize,
 }
 
 /// Coefficients of one entry of Q over M, C and D.
 #[derive(Clone, Copy, Debug, Default)]
-struct Entry {
-    mass: f64,
-    transfer: f64,
-    flow: f64,
+struct Entry<R> {
+    mass: R,
+    transfer: R,
+    flow: R,
 }
 
 /// An entry with its part of K.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sum {
-    entry: Entry,
-    elastic: f64,
+struct Sum<R> {
+    entry: Entry<R>,
+    elastic: R,
 }
 
 /// An inner node of the scalar problem: its own entry and its coupling to the node on the platform's side.
 #[derive(Clone, Copy, Debug)]
 struct Node {
-    own: Sum,
-    inward: Sum,
-    outward: Sum,
-    place: Place,
-}
-
-/// Where an inner node is.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    /// Which of the cables that are eliminated side by side.
-    slot: usize,
-    /// Whether the node on the platform's side is the hub.
-    last: bool,
+    own: Sum<Pair>,
+    inward: Sum<Pair>,
+    outward: Sum<Pair>,
 }
 
 /// A block s I₂ + k with k symmetric, k = [[t + x, y], [y, t − x]].
 #[derive(Clone, Copy, Debug, Default)]
-struct PlanarSum {
-    entry: Entry,
-    elastic: [f64; 3],
+struct PlanarSum<R> {
+    entry: Entry<R>,
+    elastic: [R; 3],
 }
 
 /// An inner node of the planar problem. The coupling is diagonal in the basis of its element, turned by θ.
 #[derive(Clone, Copy, Debug)]
 struct PlanarNode {
-    own: PlanarSum,
-    inward: Entry,
-    outward: Entry,
+    own: PlanarSum<Pair>,
+    inward: Entry<Pair>,
+    outward: Entry<Pair>,
     /// The two eigenvalues of the coupling element's A/l.
-    elastic: [f64; 2],
+    elastic: [Pair; 2],
     /// cos 2θ and sin 2θ.
-    turn: [f64; 2],
-    place: Place,
+    turn: [Pair; 2],
 }
 
 impl Characteristic {
@@ -105,28 +100,15 @@ impl Characteristic {
             Hub::Platform(mass) => Some(mass),
             Hub::Fixed => None,
         };
-        let mut scalar = Vec::with_capacity(vibration.nodes());
-        let mut planar = Vec::with_capacity(vibration.nodes());
-        for group in vibration.chains.chunks(SIDE_BY_SIDE) {
-            let longest = group.iter().map(|chain| chain.elements.len()).max().unwrap_or(0);
-            for k in (1..longest).rev() {
-                for (slot, chain) in group.iter().enumerate().filter(|(_, chain)| k < chain.elements.len()) {
-                    let (coupling, outer) = (&chain.elements[k - 1], &chain.elements[k]);
-                    let place = Place { slot, last: k == 1 };
-                    if vibration.isotropic {
-                        scalar.push(Node::new(coupling, outer, place));
-                    } else {
-                        planar.push(PlanarNode::new(coupling, outer, place));
-                    }
-                }
-            }
-        }
         let hub = vibration.chains.iter().map(|chain| PlanarSum::of(&chain.elements[0], 0));
         let hub = hub.fold(PlanarSum::default(), PlanarSum::plus);
         let kind = if vibration.isotropic {
-            Kind::Scalar { nodes: scalar, hub: Sum { entry: hub.entry, elastic: hub.elastic[0] } }
+            Kind::Scalar {
+                sides: side_by_side(vibration, Node::new),
+                hub: Sum { entry: hub.entry, elastic: hub.elastic[0] },
+            }
         } else {
-            Kind::Planar { nodes: planar, hub }
+            Kind::Planar { sides: side_by_side(vibration, PlanarNode::new), hub }
         };
         Self { alpha: vibration.damping.alpha, beta: vibration.damping.beta, platform, kind }
     }
@@ -135,48 +117,75 @@ impl Characteristic {
     /// singular pivot.
     pub fn at(&self, lambda: C64, speed: f64) -> LogDeterminant {
         let point = Point::new(self.alpha, self.beta, lambda, speed);
-        let mut product = Product::default();
+        let mut total = Total::default();
         match &self.kind {
-            Kind::Scalar { nodes, hub } => {
+            Kind::Scalar { sides, hub } => {
                 let mut platform = point.sum(hub);
-                let mut outer = [Jet::default(); SIDE_BY_SIDE];
-                for node in nodes {
-                    let outer = &mut outer[node.place.slot];
-                    let pivot = point.sum(&node.own) - *outer;
-                    let inverse = product.take(pivot);
-                    *outer = point.sum(&node.inward) * point.sum(&node.outward) * inverse;
-                    if node.place.last {
-                        platform = platform - std::mem::take(outer);
+                for SideBySide { nodes, cables } in sides {
+                    let mut product = Product::default();
+                    let mut outer = Jet::default();
+                    for node in nodes {
+                        let inverse = product.take(point.sum(&node.own) - outer);
+                        outer = point.sum(&node.inward) * point.sum(&node.outward) * inverse;
+                    }
+                    for lane in 0..*cables {
+                        platform = platform - outer.lane(lane);
+                        total.multiply(&product.lane(lane));
                     }
                 }
                 if let Some(mass) = self.platform {
-                    product.take(platform + point.mass * mass);
+                    total.take(platform + point.mass * mass);
                 }
             }
-            Kind::Planar { nodes, hub } => {
+            Kind::Planar { sides, hub } => {
                 let mut platform = point.planar(hub);
-                let mut outer = [Planar::default(); SIDE_BY_SIDE];
-                for node in nodes {
-                    let outer = &mut outer[node.place.slot];
-                    let pivot = (point.planar(&node.own) - *outer).turned(node.turn[0], node.turn[1]);
-                    let inverse = product.take(pivot.determinant());
-                    let entries = [point.entry(&node.inward), point.entry(&node.outward)];
-                    let [elastic_1, elastic_2] = node.elastic.map(|k| point.elastic * k);
-                    let inward = [(entries[0] - elastic_1) * inverse, (entries[0] - elastic_2) * inverse];
-                    let outward = [entries[1] - elastic_1, entries[1] - elastic_2];
-                    *outer = pivot.adjugate_between(inward, outward).turned(node.turn[0], -node.turn[1]);
-                    if node.place.last {
-                        platform = platform - std::mem::take(outer);
+                for SideBySide { nodes, cables } in sides {
+                    let mut product = Product::default();
+                    let mut outer = Planar::default();
+                    for node in nodes {
+                        let pivot = (point.planar(&node.own) - outer).turned(node.turn[0], node.turn[1]);
+                        let inverse = product.take(pivot.determinant());
+                        let entries = [point.entry(&node.inward), point.entry(&node.outward)];
+                        let [elastic_1, elastic_2] = node.elastic.map(|k| point.elastic(k));
+                        let inward = [(entries[0] - elastic_1) * inverse, (entries[0] - elastic_2) * inverse];
+                        let outward = [entries[1] - elastic_1, entries[1] - elastic_2];
+                        outer = pivot.adjugate_between(inward, outward).turned(node.turn[0], -node.turn[1]);
+                    }
+                    for lane in 0..*cables {
+                        platform = platform - outer.lane(lane);
+                        total.multiply(&product.lane(lane));
                     }
                 }
                 if let Some(mass) = self.platform {
                     platform.t = platform.t + point.mass * mass;
-                    product.take(platform.determinant());
+                    total.take(platform.determinant());
                 }
             }
         }
-        product.finish()
+        total.finish()
     }
+}
+
+/// The cables in twos of the same length, as nodes made from two elements each: the one on the platform's side and the
+/// one on the winch's side.
+fn side_by_side<N>(vibration: &Vibration, node: impl Fn([&Element; 2], [&Element; 2]) -> N) -> Vec<SideBySide<N>> {
+    let mut chains = vibration.chains.as_slice();
+    let mut sides = Vec::new();
+    while let [first, rest @ ..] = chains {
+        let second = rest.first().filter(|second| second.elements.len() == first.elements.len());
+        let cables = if second.is_some() { 2 } else { 1 };
+        let both = [first, second.unwrap_or(first)];
+        let at = |k: usize| both.map(|chain: &Chain| &chain.elements[k]);
+        let nodes = (1..first.elements.len()).rev().map(|k| node(at(k - 1), at(k))).collect();
+        sides.push(SideBySide { nodes, cables });
+        chains = &chains[cables..];
+    }
+    sides
+}
+
+/// One quantity of two elements.
+fn pair(elements: [&Element; 2], of: impl Fn(&Element) -> f64) -> Pair {
+    Pair(elements.map(of))
 }
 
 /// k = [[t + x, y], [y, t − x]].
@@ -184,39 +193,62 @@ fn parts(k: &Matrix2<f64>) -> [f64; 3] {
     [0.5 * (k[(0, 0)] + k[(1, 1)]), 0.5 * (k[(0, 0)] - k[(1, 1)]), 0.5 * (k[(0, 1)] + k[(1, 0)])]
 }
 
-impl Entry {
-    fn of(element: &Element, i: usize, j: usize) -> Self {
-        Self { mass: element.mass[(i, j)], transfer: element.transfer[(i, j)], flow: element.flow[(i, j)] }
+impl Entry<Pair> {
+    fn of(elements: [&Element; 2], i: usize, j: usize) -> Self {
+        Self {
+            mass: pair(elements, |e| e.mass[(i, j)]),
+            transfer: pair(elements, |e| e.transfer[(i, j)]),
+            flow: pair(elements, |e| e.flow[(i, j)]),
+        }
     }
 }
 
 impl Node {
-    /// The node between its element on the platform's side and the one on the winch's side.
-    fn new(coupling: &Element, outer: &Element, place: Place) -> Self {
-        let own = PlanarSum::of(coupling, 1).plus(PlanarSum::of(outer, 0));
-        let elastic = -coupling.elastic[(0, 0)];
+    fn new(coupling: [&Element; 2], outer: [&Element; 2]) -> Self {
+        let own = PlanarSum::<Pair>::of_both(coupling, 1).plus(PlanarSum::<Pair>::of_both(outer, 0));
+        let elastic = pair(coupling, |e| -e.elastic[(0, 0)]);
         let [inward, outward] = [(0, 1), (1, 0)].map(|(i, j)| Sum { entry: Entry::of(coupling, i, j), elastic });
-        Self { own: Sum { entry: own.entry, elastic: own.elastic[0] }, inward, outward, place }
+        Self { own: Sum { entry: own.entry, elastic: own.elastic[0] }, inward, outward }
     }
 }
 
 impl PlanarNode {
-    /// The same with both directions.
-    fn new(coupling: &Element, outer: &Element, place: Place) -> Self {
-        let own = PlanarSum::of(coupling, 1).plus(PlanarSum::of(outer, 0));
-        let [t, x, y] = parts(&coupling.elastic);
-        let radius = x.hypot(y);
-        let turn = if radius > 0.0 { [x / radius, y / radius] } else { [1.0, 0.0] };
+    fn new(coupling: [&Element; 2], outer: [&Element; 2]) -> Self {
+        let own = PlanarSum::<Pair>::of_both(coupling, 1).plus(PlanarSum::<Pair>::of_both(outer, 0));
+        let radius = |e: &Element| {
+            let [_, x, y] = parts(&e.elastic);
+            x.hypot(y)
+        };
+        // In its own basis an element of equal stiffnesses needs no turn.
+        let turn =
+            |e: &Element, i: usize| if radius(e) > 0.0 { parts(&e.elastic)[i] / radius(e) } else { (2 - i) as f64 };
         let [inward, outward] = [(0, 1), (1, 0)].map(|(i, j)| Entry::of(coupling, i, j));
-        Self { own, inward, outward, elastic: [t + radius, t - radius], turn, place }
+        Self {
+            own,
+            inward,
+            outward,
+            elastic: [1.0, -1.0].map(|sign| pair(coupling, |e| parts(&e.elastic)[0] + sign * radius(e))),
+            turn: [1, 2].map(|i| pair(coupling, |e| turn(e, i))),
+        }
     }
 }
 
-impl PlanarSum {
+impl PlanarSum<f64> {
     fn of(element: &Element, i: usize) -> Self {
-        Self { entry: Entry::of(element, i, i), elastic: parts(&element.elastic) }
+        let entry =
+            Entry { mass: element.mass[(i, i)], transfer: element.transfer[(i, i)], flow: element.flow[(i, i)] };
+        Self { entry, elastic: parts(&element.elastic) }
     }
+}
 
+impl PlanarSum<Pair> {
+    fn of_both(elements: [&Element; 2], i: usize) -> Self {
+        let elastic = [0, 1, 2].map(|part| pair(elements, |e| parts(&e.elastic)[part]));
+        Self { entry: Entry::of(elements, i, i), elastic }
+    }
+}
+
+impl<R: Real> PlanarSum<R> {
     fn plus(self, other: Self) -> Self {
         let (a, b) = (self.entry, other.entry);
         let entry = Entry { mass: a.mass + b.mass, transfer: a.transfer + b.transfer, flow: a.flow + b.flow };
@@ -228,61 +260,72 @@ impl PlanarSum {
 /// What multiplies M, C, D and K in Q at one (λ, v).
 struct Point {
     /// λ² + αλ.
-    mass: Jet,
-    /// λ v.
-    transfer: Jet,
-    /// v², and its derivative in v.
-    flow: [f64; 2],
-    /// 1 + βλ.
-    elastic: Jet,
+    mass: Jet<f64>,
+    /// λ v; its derivatives are v and λ.
+    transfer: C64,
+    lambda: C64,
+    speed: f64,
+    /// 1 + βλ; it does not depend on v.
+    elastic: C64,
+    beta: f64,
 }
 
 impl Point {
     fn new(alpha: f64, beta: f64, lambda: C64, speed: f64) -> Self {
-        let zero = C64::new(0.0, 0.0);
-        let mass = Jet { value: lambda * (lambda + alpha), by_lambda: lambda * 2.0 + alpha, by_speed: zero };
-        let transfer = Jet { value: lambda * speed, by_lambda: speed.into(), by_speed: lambda };
-        let elastic = Jet { value: lambda * beta + 1.0, by_lambda: beta.into(), by_speed: zero };
-        Self { mass, transfer, flow: [speed * speed, 2.0 * speed], elastic }
+        let (value, slope) = (lambda * (lambda + alpha), lambda * 2.0 + alpha);
+        let mass = Jet { value: value.into(), by_lambda: slope.into(), by_speed: Number::default() };
+        Self { mass, transfer: lambda * speed, lambda, speed, elastic: lambda * beta + 1.0, beta }
     }
 
-    fn entry(&self, of: &Entry) -> Jet {
-        let (mass, transfer) = (&self.mass, &self.transfer);
+    #[inline]
+    fn entry<R: Real>(&self, of: &Entry<R>) -> Jet<R> {
+        let Jet { value: mass, by_lambda: slope, .. } = self.mass;
+        let &Entry { mass: m, transfer: c, flow: d } = of;
         Jet {
-            value: mass.value * of.mass + transfer.value * of.transfer + self.flow[0] * of.flow,
-            by_lambda: mass.by_lambda * of.mass + transfer.by_lambda * of.transfer,
-            by_speed: transfer.by_speed * of.transfer + self.flow[1] * of.flow,
+            value: Number {
+                re: m * mass.re + c * self.transfer.re + d * (self.speed * self.speed),
+                im: m * mass.im + c * self.transfer.im,
+            },
+            by_lambda: Number { re: m * slope.re + c * self.speed, im: m * slope.im },
+            by_speed: Number { re: c * self.lambda.re + d * (2.0 * self.speed), im: c * self.lambda.im },
         }
     }
 
-    fn elastic(&self, k: f64) -> Jet {
-        // 1 + βλ does not depend on v.
-        let elastic = &self.elastic;
-        Jet { value: elastic.value * k, by_lambda: elastic.by_lambda * k, by_speed: C64::new(0.0, 0.0) }
+    #[inline]
+    fn elastic<R: Real>(&self, k: R) -> Jet<R> {
+        Jet {
+            value: Number { re: k * self.elastic.re, im: k * self.elastic.im },
+            by_lambda: Number { re: k * self.beta, im: R::default() },
+            by_speed: Number::default(),
+        }
     }
 
-    fn sum(&self, of: &Sum) -> Jet {
+    #[inline]
+    fn sum<R: Real>(&self, of: &Sum<R>) -> Jet<R> {
         self.entry(&of.entry) + self.elastic(of.elastic)
     }
 
-    fn planar(&self, of: &PlanarSum) -> Planar {
+    #[inline]
+    fn planar<R: Real>(&self, of: &PlanarSum<R>) -> Planar<R> {
         let [t, x, y] = of.elastic.map(|k| self.elastic(k));
         Planar { t: self.entry(&of.entry) + t, w: Jet::default(), x, y }
     }
 }
 
-/// The product of the pivots' determinants: mantissa, logarithm of what was taken out of it, and derivatives.
+/// The product of the pivots' determinants of two cables: mantissa, logarithm of what was taken out of it, and
+/// logarithmic derivatives.
 struct Product {
-    mantissa: C64,
-    log: f64,
-    by_lambda: C64,
-    by_speed: C64,
+    mantissa: Number<Pair>,
+    log: [f64; 2],
+    by_lambda: Number<Pair>,
+    by_speed: Number<Pair>,
 }
 
 impl Default for Product {
     fn default() -> Self {
-        let zero = C64::new(0.0, 0.0);
-        Self { mantissa: 1.0.into(), log: 0.0, by_lambda: zero, by_speed: zero }
+        let zero = Number::default();
+        let mantissa = Number { re: Pair([1.0; 2]), im: Pair::default() };
+        Self { mantissa, log: [0.0; 2], by_lambda: zero, by_speed: zero }
     }
 }
 
@@ -292,23 +335,80 @@ impl Product {
 
     /// Multiplies by `factor`, and gives 1/`factor`.
     #[inline]
-    fn take(&mut self, factor: Jet) -> Jet {
-        self.mantissa *= factor.value;
+    fn take(&mut self, factor: Jet<Pair>) -> Jet<Pair> {
+        self.mantissa = self.mantissa * factor.value;
+        let Pair(sizes) = self.mantissa.norm_sqr();
+        if !sizes.iter().all(|&size| size < Self::LARGE && size > 1.0 / Self::LARGE) {
+            self.normalise(sizes);
+        }
+        let Pair(sizes) = factor.value.norm_sqr();
+        let reciprocal = Pair(sizes.map(f64::recip));
+        let value = Number { re: factor.value.re * reciprocal, im: -(factor.value.im * reciprocal) };
+        let (by_lambda, by_speed) = (factor.by_lambda * value, factor.by_speed * value);
+        self.by_lambda = self.by_lambda + by_lambda;
+        self.by_speed = self.by_speed + by_speed;
+        Jet { value, by_lambda: -by_lambda * value, by_speed: -by_speed * value }
+    }
+
+    /// Takes the mantissas' sizes, given squared, out of them.
+    #[cold]
+    fn normalise(&mut self, sizes: [f64; 2]) {
+        let norms = sizes.map(f64::sqrt);
+        self.mantissa = self.mantissa * Pair(norms.map(f64::recip));
+        for (log, norm) in self.log.iter_mut().zip(norms) {
+            *log += norm.ln();
+        }
+    }
+
+    /// Hands one cable's over.
+    fn lane(&self, lane: usize) -> Total {
+        Total {
+            mantissa: self.mantissa.lane(lane),
+            log: self.log[lane],
+            by_lambda: self.by_lambda.lane(lane),
+            by_speed: self.by_speed.lane(lane),
+        }
+    }
+}
+
+/// The same for one cable, and for all of them and the platform together.
+struct Total {
+    mantissa: C64,
+    log: f64,
+    by_lambda: C64,
+    by_speed: C64,
+}
+
+impl Default for Total {
+    fn default() -> Self {
+        let zero = C64::new(0.0, 0.0);
+        Self { mantissa: 1.0.into(), log: 0.0, by_lambda: zero, by_speed: zero }
+    }
+}
+
+impl Total {
+    fn multiply(&mut self, factor: &Self) {
+        self.mantissa *= factor.mantissa;
         let size = self.mantissa.norm_sqr();
-        if !(size < Self::LARGE && size > 1.0 / Self::LARGE) {
+        if !(size < Product::LARGE && size > 1.0 / Product::LARGE) {
             let norm = size.sqrt();
             self.mantissa /= norm;
             self.log += norm.ln();
         }
-        let value = factor.value.inv();
-        let (by_lambda, by_speed) = (factor.by_lambda * value, factor.by_speed * value);
-        self.by_lambda += by_lambda;
-        self.by_speed += by_speed;
-        Jet { value, by_lambda: -by_lambda * value, by_speed: -by_speed * value }
+        self.log += factor.log;
+        self.by_lambda += factor.by_lambda;
+        self.by_speed += factor.by_speed;
+    }
+
+    fn take(&mut self, factor: Jet<f64>) {
+        let [mantissa, by_lambda, by_speed] =
+            [factor.value, factor.by_lambda, factor.by_speed].map(|number| C64::new(number.re, number.im));
+        let (by_lambda, by_speed) = (by_lambda / mantissa, by_speed / mantissa);
+        self.multiply(&Self { mantissa, log: 0.0, by_lambda, by_speed });
     }
 
     fn finish(self) -> LogDeterminant {
-        let log = C64::new(self.mantissa.norm().ln() + self.log, self.mantissa.arg());
+        let log = C64::new(0.5 * self.mantissa.norm_sqr().ln() + self.log, self.mantissa.arg());
         LogDeterminant { log, by_lambda: self.by_lambda, by_speed: self.by_speed }
     }
 }

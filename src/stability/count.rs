@@ -15,10 +15,10 @@ use crate::mechanics::Vibration;
 
 type C64 = Complex<f64>;
 
-/// How much d ln D times the step's length may change along a step. A zero at 0.76 lengths from its middle does that.
+/// How much d ln D times the step's length may change along a step: 0.6 of what a zero does half a length from its middle.
 const LARGEST_CHANGE: f64 = 1.2;
-/// How far the change of ln D may be from the trapezoidal rule.
-const LARGEST_ERROR: f64 = 0.25;
+/// How far the change of ln D may be from the trapezoidal rule: again 0.6 of what such a zero does, π/2 − 1.
+const LARGEST_ERROR: f64 = 0.34;
 /// First steps along the arc; those along the axis are so long that this many frequencies are expected in one.
 const FIRST_STEPS: u32 = 8;
 const LARGEST_STEP: f64 = 1.4;

@@ -21,8 +21,9 @@ type C64 = Complex<f64>;
 /// cable's move by this part of their spacing: no turn of the phase, which takes two, is overlooked between its corners.
 const LARGEST_WIDTH: f64 = 1.4;
 const LARGEST_MOVE: f64 = 0.35;
-/// A strip is at most this high, in m/s.
-const LARGEST_STRIP: f64 = 0.5;
+/// A strip is so high, in m/s; at low speeds, where frequencies hardly move, up to twice that.
+const STRIP: f64 = 0.5;
+const LARGEST_STRIP: f64 = 1.0;
 /// Evaluations after which the dense solver is hardly slower, for all cells and for the first ones of a strip.
 const LARGEST_EFFORT: usize = 50_000;
 const LARGEST_STRIP_EFFORT: f64 = 4000.0;
@@ -60,11 +61,13 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
         zeros: Vec::new(),
         evaluations: 0,
         eligible: 0.0,
-        cell: [LARGEST_WIDTH / bounds.frequency_density(), LARGEST_STRIP],
+        cell: [LARGEST_WIDTH / bounds.frequency_density(), STRIP],
     };
     let mut from = bounds.lowest_speed(limit);
     while from < limit {
-        let to = limit.min(from + LARGEST_STRIP);
+        let top = bounds.highest_frequency(from + STRIP);
+        let height = (LARGEST_MOVE * bounds.speed_step(top, from)).clamp(STRIP, LARGEST_STRIP);
+        let to = limit.min(from + height);
         let top = bounds.highest_frequency(to);
         let columns = (top / plane.cell[0]).ceil().max(1.0);
         if columns.is_nan() || columns > LARGEST_STRIP_EFFORT {
@@ -79,7 +82,7 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
 
         if let Some(zero) = plane.first_from(from).filter(|zero| zero.speed <= to) {
             // What crosses first crosses to the right: d Re λ/dv = Im b. Below it nothing is unstable.
-            let below = (zero.speed - BELOW * LARGEST_STRIP).max(0.5 * zero.speed);
+            let below = (zero.speed - BELOW * STRIP).max(0.5 * zero.speed);
             let sound = zero.slope.im > 0.0 && count(&function, &bounds, below) == Some(0);
             return if sound { Search::Crossing { omega: zero.omega, speed: zero.speed } } else { Search::Doubt };
         }
@@ -251,7 +254,7 @@ impl Plane<'_> {
         corner.by_speed -= by_speed;
         for zero in &self.zeros {
             for (factor, slope) in zero.factors(corner.omega, corner.speed) {
-                corner.log -= factor.ln();
+                corner.log -= C64::new(0.5 * factor.norm_sqr().ln(), factor.arg());
                 corner.by_omega -= factor.inv();
                 corner.by_speed -= slope / factor;
             }
