@@ -24,7 +24,7 @@ const LIMIT: f64 = 20.0;
 /// The step of the referee's scan in m/s.
 const STEP: f64 = 0.05;
 /// Beyond this many eigenvalues only a full run scans; else the referee looks at a few speeds.
-const USUAL: usize = 125;
+const USUAL: usize = 100;
 const FEW: u32 = 8;
 /// Critical speeds agree to this, in m/s, and to the referee's rounding.
 const AGREEMENT: f64 = 1e-6;
@@ -291,7 +291,8 @@ fn judge_critical_speed(drawn: &Drawn) -> Verdict {
     let mut before = 0.0;
     loop {
         let speed = before + step;
-        if speed > end + step || speed > LIMIT + 0.5 * step {
+        // A few speeds tell what was missed before the end; only a scan has a crossing of its own to compare.
+        if speed > end + (if scan { step } else { 0.0 }) || speed > LIMIT + 0.5 * step {
             return Verdict::Right;
         }
         let Some(rate) = drawn.referee.growth_rate(speed) else { return Verdict::no_referee(speed) };
