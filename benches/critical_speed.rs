@@ -1,11 +1,18 @@
-//! What a critical speed and a spectrum cost, by structure and by the dense solver: `cargo bench`.
+//! What a critical speed and a spectrum cost, by structure and by dense eigenvalue solvers: `cargo bench`.
+//!
+//! `*_faer` are scans by the dense eigenvalue solver of faer, on one thread, without knowledge of the structure but for
+//! what their names say; the numbers side by side, as ratios, are those of `cargo bench --bench ratios`.
 #![allow(missing_docs, reason = "benchmarks are named after what they measure")]
+
+#[path = "../tests/common/mod.rs"]
+mod common;
 
 use std::hint::black_box;
 
+use common::referee::Referee;
 use divan::Bencher;
 use tautline::robot::{Linearisation, RobotSpec, paper_spec};
-use tautline::stability::{CriticalSearch, Eigenproblem, Method};
+use tautline::stability::{CriticalSearch, Method, SCAN_STEP};
 use tautline::{Local, Motion, Robot};
 
 const LIMIT: f64 = 40.0;
@@ -25,50 +32,96 @@ fn local(robot: &Robot, x: f64) -> Local {
     Local::new(robot, &motion).expect("a feasible pose")
 }
 
-fn search(bencher: Bencher, method: Method, linearisation: Linearisation, elements: usize) {
-    let local = local(&paper(linearisation, elements), 0.0);
-    bencher.bench(|| CriticalSearch::by(method, LIMIT).run(&local.vibration));
+/// The paper's robot in its origin.
+fn at_origin(linearisation: Linearisation, elements: usize) -> (Robot, Local) {
+    let robot = paper(linearisation, elements);
+    let local = local(&robot, 0.0);
+    (robot, local)
+}
+
+/// The referee for it, of all unknowns or of one direction where both are the same problem.
+fn referee(linearisation: Linearisation, elements: usize, whole: bool) -> Referee {
+    let (robot, local) = at_origin(linearisation, elements);
+    let new = if whole { Referee::without_structure } else { Referee::new };
+    new(&robot, &local.statics, &local.rates)
 }
 
 mod critical_speed {
-    use super::{Bencher, Linearisation, Method, search};
+    use super::{Bencher, CriticalSearch, LIMIT, Linearisation, Method, SCAN_STEP, at_origin, referee};
+
+    fn structured(bencher: Bencher, linearisation: Linearisation, elements: usize) {
+        let (_, local) = at_origin(linearisation, elements);
+        bencher.bench(|| local.critical_speed(LIMIT));
+    }
+
+    /// The crate's own scan.
+    fn dense(bencher: Bencher, linearisation: Linearisation, elements: usize) {
+        let (_, local) = at_origin(linearisation, elements);
+        bencher.bench(|| CriticalSearch::by(Method::Dense, LIMIT).run(&local.vibration));
+    }
+
+    fn faer(bencher: Bencher, linearisation: Linearisation, elements: usize, whole: bool) {
+        let referee = referee(linearisation, elements, whole);
+        bencher.bench(|| referee.scan(SCAN_STEP, LIMIT));
+    }
 
     #[divan::bench(args = [10, 20, 40, 80])]
     fn structured_tangent(bencher: Bencher, elements: usize) {
-        search(bencher, Method::Structured, Linearisation::Tangent, elements);
+        structured(bencher, Linearisation::Tangent, elements);
     }
 
     #[divan::bench(args = [10, 20, 40, 80])]
     fn structured_secant(bencher: Bencher, elements: usize) {
-        search(bencher, Method::Structured, Linearisation::Secant, elements);
+        structured(bencher, Linearisation::Secant, elements);
     }
 
     /// Longer meshes take minutes.
     #[divan::bench(args = [10], sample_count = 3)]
     fn dense_tangent(bencher: Bencher, elements: usize) {
-        search(bencher, Method::Dense, Linearisation::Tangent, elements);
+        dense(bencher, Linearisation::Tangent, elements);
     }
 
     #[divan::bench(args = [10, 20], sample_count = 3)]
     fn dense_secant(bencher: Bencher, elements: usize) {
-        search(bencher, Method::Dense, Linearisation::Secant, elements);
+        dense(bencher, Linearisation::Secant, elements);
+    }
+
+    #[divan::bench(args = [10], sample_count = 5)]
+    fn dense_tangent_faer(bencher: Bencher, elements: usize) {
+        faer(bencher, Linearisation::Tangent, elements, true);
+    }
+
+    /// One whole scan, which takes a quarter of a minute.
+    #[divan::bench(args = [40], sample_count = 1, sample_size = 1)]
+    fn dense_tangent_faer_long(bencher: Bencher, elements: usize) {
+        faer(bencher, Linearisation::Tangent, elements, true);
+    }
+
+    #[divan::bench(args = [10], sample_count = 5)]
+    fn dense_secant_one_direction_faer(bencher: Bencher, elements: usize) {
+        faer(bencher, Linearisation::Secant, elements, false);
+    }
+
+    /// As one writes it who does not know that x and y decouple.
+    #[divan::bench(args = [10], sample_count = 5)]
+    fn dense_secant_both_directions_faer(bencher: Bencher, elements: usize) {
+        faer(bencher, Linearisation::Secant, elements, true);
     }
 }
 
 mod spectrum {
-    use super::{Bencher, Eigenproblem, Linearisation, SPEED, black_box, local, paper};
+    use super::{Bencher, Linearisation, SPEED, at_origin, black_box, referee};
 
     #[divan::bench(args = [10, 20, 40], sample_count = 10)]
     fn structured_tangent(bencher: Bencher, elements: usize) {
-        let local = local(&paper(Linearisation::Tangent, elements), 0.0);
+        let (_, local) = at_origin(Linearisation::Tangent, elements);
         bencher.bench(|| local.spectrum(black_box(SPEED)));
     }
 
     #[divan::bench(args = [10, 20, 40], sample_count = 5)]
-    fn dense_tangent(bencher: Bencher, elements: usize) {
-        let local = local(&paper(Linearisation::Tangent, elements), 0.0);
-        let problem = Eigenproblem::new(&local.vibration).expect("a problem");
-        bencher.bench(|| problem.spectrum(black_box(SPEED)));
+    fn dense_tangent_faer(bencher: Bencher, elements: usize) {
+        let referee = referee(Linearisation::Tangent, elements, true);
+        bencher.bench(|| referee.eigenvalues(black_box(SPEED)));
     }
 }
 

@@ -4,7 +4,7 @@
 use nalgebra::{Complex, DMatrix, DVector, Matrix2};
 use tautline::Robot;
 use tautline::mechanics::{LengthRates, Statics};
-use tautline::robot::Linearisation;
+use tautline::robot::{Damping, Linearisation};
 
 use super::hung::Hung;
 
@@ -20,9 +20,23 @@ pub struct Dense {
     pub stiffness: DMatrix<f64>,
 }
 
-impl Dense {
-    /// The problem at a static shape, at `speed`.
-    pub fn new(robot: &Robot, statics: &Statics, rates: &[LengthRates], speed: f64) -> Self {
+/// What the problem at every speed is made of: C grows with the speed, `K_dyn` with its square.
+pub struct Parts {
+    /// M.
+    pub mass: DMatrix<f64>,
+    /// C at 1 m/s.
+    pub flow: DMatrix<f64>,
+    /// `K_el`.
+    pub elastic: DMatrix<f64>,
+    /// `K_dyn` at 1 m/s.
+    pub dynamic: DMatrix<f64>,
+    /// α and β.
+    pub damping: Damping,
+}
+
+impl Parts {
+    /// The parts at a static shape.
+    pub fn new(robot: &Robot, statics: &Statics, rates: &[LengthRates]) -> Self {
         let (n, mu) = (robot.elements, robot.mass_per_length);
         let size = 2 * (1 + robot.cables.len() * (n - 1));
         let zeros = || DMatrix::<f64>::zeros(size, size);
@@ -32,7 +46,7 @@ impl Dense {
         mass[(1, 1)] = robot.platform_mass;
         for (i, (shape, rate)) in statics.cables.iter().zip(rates).enumerate() {
             let l = shape.length / n as f64;
-            let (l_rate, l_acceleration) = (speed * rate.first / n as f64, speed * speed * rate.second / n as f64);
+            let (l_rate, l_acceleration) = (rate.first / n as f64, rate.second / n as f64);
             // The first unknown of node k; none for the winch.
             let unknown = |k: usize| match k {
                 0 => Some(0),
@@ -79,9 +93,41 @@ impl Dense {
                 }
             }
         }
-        let damping = flow + &mass * robot.damping.alpha + &elastic * robot.damping.beta;
-        let stiffness = &elastic + dynamic;
-        Self { mass, damping, elastic, stiffness }
+        Self { mass, flow, elastic, dynamic, damping: robot.damping }
+    }
+
+    /// The problem at `speed`.
+    pub fn at(&self, speed: f64) -> Dense {
+        Dense {
+            mass: self.mass.clone(),
+            damping: &self.flow * speed + &self.mass * self.damping.alpha + &self.elastic * self.damping.beta,
+            elastic: self.elastic.clone(),
+            stiffness: &self.elastic + &self.dynamic * (speed * speed),
+        }
+    }
+
+    /// The problem of x alone, where y has the same and neither feels the other.
+    pub fn one_direction(&self) -> Option<Self> {
+        let half = self.mass.nrows() / 2;
+        let part = |matrix: &DMatrix<f64>| {
+            let block = |a: usize, b: usize| DMatrix::from_fn(half, half, |i, j| matrix[(2 * i + a, 2 * j + b)]);
+            let apart = block(0, 1).amax() == 0.0 && block(1, 0).amax() == 0.0;
+            (apart && block(0, 0) == block(1, 1)).then(|| block(0, 0))
+        };
+        Some(Self {
+            mass: part(&self.mass)?,
+            flow: part(&self.flow)?,
+            elastic: part(&self.elastic)?,
+            dynamic: part(&self.dynamic)?,
+            damping: self.damping,
+        })
+    }
+}
+
+impl Dense {
+    /// The problem at a static shape, at `speed`.
+    pub fn new(robot: &Robot, statics: &Statics, rates: &[LengthRates], speed: f64) -> Self {
+        Parts::new(robot, statics, rates).at(speed)
     }
 
     /// The sum of all eigenvalues and the sum of their squares, from traces.

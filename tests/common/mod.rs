@@ -4,6 +4,7 @@
 pub mod dense;
 pub mod hung;
 pub mod random;
+pub mod referee;
 pub mod shell;
 
 use std::fmt::Display;
@@ -34,20 +35,24 @@ pub fn largest(values: &[Complex<f64>]) -> f64 {
 }
 
 /// Fails unless the two lists are equal up to order: a pairing exists whose partners differ by at most `tolerance`.
-///
-/// Pairing each value with its nearest neighbour would not do: in a cluster the nearest may be wanted by another.
 #[track_caller]
 pub fn same_multiset(actual: &[Complex<f64>], expected: &[Complex<f64>], tolerance: f64, what: impl Display) {
     assert!(tolerance.is_finite(), "{what}: the tolerance is {tolerance}");
     assert_eq!(actual.len(), expected.len(), "{what}: the numbers of values differ");
-    let near = |i: usize, j: usize| (actual[i] - expected[j]).norm() <= tolerance;
-    let mut partner = vec![None; actual.len()];
-    for (j, value) in expected.iter().enumerate() {
-        let mut tried = vec![false; actual.len()];
-        let placed = place(j, &near, &mut partner, &mut tried);
+    if let Some(j) = unmatched(actual, expected, &vec![tolerance; expected.len()]) {
+        let value = expected[j];
         let nearest = actual.iter().map(|a| (a - value).norm()).fold(f64::INFINITY, f64::min);
-        assert!(placed, "{what}: nothing left for the expected {value} (nearest {nearest:e}, allowed {tolerance:e})");
+        panic!("{what}: nothing left for the expected {value} (nearest {nearest:e}, allowed {tolerance:e})");
     }
+}
+
+/// The first expected value for which no pairing leaves a partner within what is `allowed` for it.
+///
+/// Pairing each value with its nearest neighbour would not do: in a cluster the nearest may be wanted by another.
+pub fn unmatched(actual: &[Complex<f64>], expected: &[Complex<f64>], allowed: &[f64]) -> Option<usize> {
+    let near = |i: usize, j: usize| (actual[i] - expected[j]).norm() <= allowed[j];
+    let mut partner = vec![None; actual.len()];
+    (0..expected.len()).find(|&j| !place(j, &near, &mut partner, &mut vec![false; actual.len()]))
 }
 
 /// Gives the expected value `j` a partner, moving others to theirs where needed (Kuhn's algorithm).
