@@ -149,12 +149,17 @@ impl Spectra {
     fn solve(&self, mut estimates: Estimates, speed: f64) -> Option<Estimates> {
         let count = estimates.values.len();
         let mut converged = vec![false; count];
+        // Newton's steps without the other estimates: how far the next eigenvalue may be.
+        let mut newton = vec![0.0; count];
         let mut largest_step = 0.0;
+        let mut whole = true;
         for _ in 0..SWEEPS {
             largest_step = 0.0_f64;
             for (j, done) in converged.iter_mut().enumerate().filter(|(_, done)| !**done) {
                 let z = estimates.values[j];
-                let mut step = (self.function.at(z, speed).by_lambda - estimates.others(j)).inv();
+                let slope = self.function.at(z, speed).by_lambda;
+                newton[j] = slope.norm_sqr().sqrt().recip();
+                let mut step = (slope - estimates.others(j)).inv();
                 if !(step.re.is_finite() && step.im.is_finite()) {
                     // The elimination has met a singular pivot: from a little further on it can go on.
                     step = z * 1e-8;
@@ -168,12 +173,20 @@ impl Spectra {
                 }
                 estimates.values[j] = z - step;
             }
-            if converged.iter().all(|&done| done) {
+            let all = converged.iter().all(|&done| done);
+            if all && whole {
                 largest_step = CONVERGED;
                 break;
             }
+            // Those that came to rest first have seen the others move since: all are looked at once more.
+            if all {
+                converged.fill(false);
+            }
+            whole = all;
         }
-        if largest_step > STAGNATED {
+        // Where two estimates have come to one eigenvalue, they are nearer to each other than to it.
+        let same = |(j, z): (usize, &C64)| newton[j] > (CONVERGED * z.norm()).max(0.5 * estimates.gap(j));
+        if largest_step > STAGNATED || estimates.values.iter().enumerate().any(same) {
             return None;
         }
         let estimates = estimates.symmetric(largest_step)?;
@@ -221,6 +234,15 @@ impl Estimates {
         sum
     }
 
+    /// The distance of an estimate from the nearest other one, its partner among them; from zero where two are the same.
+    fn gap(&self, j: usize) -> f64 {
+        let z = self.values[j];
+        let others = self.values.iter().enumerate().filter(|&(k, _)| k != j).map(|(_, &other)| other);
+        let partners = self.values.iter().filter(|_| self.paired).map(nalgebra::Complex::conj);
+        let nearest = others.chain(partners).map(|other| (other - z).norm_sqr()).fold(f64::INFINITY, f64::min).sqrt();
+        if nearest > 0.0 { nearest } else { z.norm() }
+    }
+
     /// The same as exact pairs and real numbers; `None` where they are not that to about a part of `step`.
     fn symmetric(mut self, step: f64) -> Option<Self> {
         if self.paired {
@@ -264,7 +286,9 @@ impl Estimates {
                 values.push(value.conj());
             }
         }
-        let gaps: Vec<f64> = (0..values.len()).map(|j| gap(&values, j)).collect();
+        let values = Self { values, paired: false };
+        let gaps: Vec<f64> = (0..values.values.len()).map(|j| values.gap(j)).collect();
+        let mut values = values.values;
         for ((j, value), gap) in values.iter_mut().enumerate().zip(gaps) {
             // A Weyl sequence: neither symmetric nor periodic.
             let part = (j as f64 * 0.618_033_988_749_895).fract() - 0.5;
@@ -272,13 +296,6 @@ impl Estimates {
         }
         Self { values, paired: false }
     }
-}
-
-/// The distance of an estimate from the nearest other one; from zero where two are the same.
-fn gap(values: &[C64], j: usize) -> f64 {
-    let others = values.iter().enumerate().filter(|&(k, _)| k != j);
-    let nearest = others.map(|(_, other)| (other - values[j]).norm()).fold(f64::INFINITY, f64::min);
-    if nearest > 0.0 { nearest } else { values[j].norm() }
 }
 
 /// 1/z without the care for overflow that the estimates do not need.
