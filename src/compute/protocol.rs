@@ -1,4 +1,5 @@
-//! What goes to the engine and what comes back. Plain data, sent as bytes between the page and its worker.
+//! What goes to the engine and to the pool, and what comes back. Plain data, sent as bytes between the page and its
+//! workers.
 
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
@@ -164,4 +165,222 @@ impl ModeShape {
             cable_share: mode.cable_share.clone(),
         }
     }
+}
+
+/// What a study is about: of each topic at most one study is at work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum Topic {
+    /// Critical speeds along the motion.
+    Line,
+    /// A map over the workspace.
+    Map,
+    /// Critical speeds in every direction.
+    Polar,
+    /// All eigenvalues against speed.
+    Campbell,
+    /// Critical speeds on several meshes.
+    Convergence,
+}
+
+/// A study that is wanted of a scenario.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StudyJob {
+    /// The document's state that this is.
+    pub revision: Revision,
+    /// The scenario as in its file.
+    pub scenario: String,
+    /// What is wanted of it.
+    pub study: StudyChoice,
+}
+
+/// A study; pose, direction and speed are the scenario's. Speeds in m/s; up to a `max_speed`, finite and greater than
+/// 0, critical speeds are searched for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum StudyChoice {
+    /// Critical speeds along the motion, from border to border of the workspace.
+    Line {
+        /// How many places.
+        points: usize,
+        /// See [`StudyChoice`].
+        max_speed: f64,
+    },
+    /// A map over the workspace.
+    Map {
+        /// Points in a row.
+        nx: usize,
+        /// Rows.
+        ny: usize,
+        /// In which directions.
+        directions: DirectionsChoice,
+        /// What it shows.
+        asked: AskedChoice,
+    },
+    /// Critical speeds in every direction.
+    Polar {
+        /// How many directions.
+        count: usize,
+        /// See [`StudyChoice`].
+        max_speed: f64,
+    },
+    /// All eigenvalues from rest to a speed.
+    Campbell {
+        /// The highest speed.
+        to: f64,
+        /// How many speeds.
+        count: usize,
+    },
+    /// Critical speeds on several meshes.
+    Convergence {
+        /// Elements per cable of each.
+        counts: Vec<usize>,
+        /// See [`StudyChoice`].
+        max_speed: f64,
+    },
+}
+
+impl StudyChoice {
+    /// What it is about.
+    pub fn topic(&self) -> Topic {
+        match self {
+            Self::Line { .. } => Topic::Line,
+            Self::Map { .. } => Topic::Map,
+            Self::Polar { .. } => Topic::Polar,
+            Self::Campbell { .. } => Topic::Campbell,
+            Self::Convergence { .. } => Topic::Convergence,
+        }
+    }
+}
+
+/// In which directions a map looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum DirectionsChoice {
+    /// In the scenario's.
+    Motion,
+    /// In the worst of 16.
+    Worst,
+}
+
+/// What a map shows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum AskedChoice {
+    /// The critical speed.
+    Critical {
+        /// See [`StudyChoice`].
+        max_speed: f64,
+    },
+    /// The largest growth rate at the scenario's speed.
+    Growth,
+}
+
+/// What is known at one place of a study; places are numbered as in [`Study`](crate::study::Study).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum PlaceAnswer {
+    /// The critical speed.
+    Critical {
+        /// The unit vector of the motion; of several directions the worst one.
+        direction: [f64; 2],
+        /// What is known.
+        verdict: VerdictAnswer,
+    },
+    /// max Re λ in 1/s; `None` where it is not known.
+    Growth(Option<f64>),
+    /// [Re λ, Im λ] in 1/s, Im λ ≥ 0, in rising order of frequency; `None` where they are not known.
+    Spectrum(Option<Vec<[f64; 2]>>),
+}
+
+/// The critical speed, or why there is none.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum VerdictAnswer {
+    /// The pose has no taut equilibrium that could be computed.
+    Infeasible,
+    /// The eigenvalues could not be computed: not known.
+    NotConverged,
+    /// Every speed up to this one (m/s) is stable.
+    NoneUpTo(f64),
+    /// The first crossing.
+    Critical(CriticalReport),
+}
+
+/// News of a study.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StudyNews {
+    /// Answers at some places.
+    Places {
+        /// Which study.
+        topic: Topic,
+        /// The document's state that it is of.
+        revision: Revision,
+        /// Places and what is known there; no place comes twice.
+        answers: Vec<(usize, PlaceAnswer)>,
+    },
+    /// All places are answered.
+    Finished {
+        /// Which study.
+        topic: Topic,
+        /// The document's state that it is of.
+        revision: Revision,
+    },
+    /// The study cannot be begun.
+    Refused {
+        /// Which study.
+        topic: Topic,
+        /// The document's state that it is of.
+        revision: Revision,
+        /// Why not.
+        reason: String,
+    },
+    /// No worker could be started, with the reason; every study has ended.
+    Broken(String),
+}
+
+/// A message to a worker.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Incoming {
+    /// To the engine.
+    Request(Request),
+    /// To one of the pool's workers.
+    Task(Task),
+}
+
+/// A message from a worker.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Outgoing {
+    /// From the engine.
+    Reply(Reply),
+    /// From one of the pool's workers.
+    Batch(BatchAnswer),
+}
+
+/// What one of the pool's workers is told.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Task {
+    /// A study, in the place of the one of this topic; its places follow in batches.
+    Study {
+        /// Names the study.
+        generation: u64,
+        /// The study.
+        job: StudyJob,
+    },
+    /// Places to answer.
+    Batch(Batch),
+}
+
+/// Places to answer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Batch {
+    /// Which study, as told before.
+    pub topic: Topic,
+    /// Names the study.
+    pub generation: u64,
+    /// Which places.
+    pub places: Vec<usize>,
+}
+
+/// The answers to a batch; a worker answers its batches in the order in which they come.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BatchAnswer {
+    /// The first so many of the batch's places: a worker stops when it has taken its time.
+    pub answers: Vec<(usize, PlaceAnswer)>,
+    /// How long it took, in s.
+    pub seconds: f64,
 }

@@ -1,0 +1,71 @@
+//! The web worker's side: the engine for a drag, or places for the page's pool. Every worker can do both; the page
+//! gives each one kind of work.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+
+use js_sys::Uint8Array;
+use wasm_bindgen::prelude::*;
+use web_sys::{DedicatedWorkerGlobalScope, MessageChannel, MessageEvent};
+
+use super::Engine;
+use super::link::READY;
+use super::places::Places;
+use super::pool::Bench;
+use super::protocol::{Incoming, Outgoing};
+
+/// Serves messages for as long as the page wants.
+///
+/// # Errors
+/// Where this is no worker, or the browser has no message channels.
+pub fn run_worker() -> Result<(), JsValue> {
+    let scope: DedicatedWorkerGlobalScope = js_sys::global().dyn_into()?;
+    let engine = Rc::new(RefCell::new(Engine::default()));
+    // A message to itself lets the worker take in newer requests between two slices.
+    let again = MessageChannel::new()?;
+    let at_work = Rc::new(Cell::new(false));
+    let on_slice = {
+        let (engine, scope, again, at_work) = (engine.clone(), scope.clone(), again.clone(), at_work.clone());
+        Closure::<dyn FnMut()>::new(move || {
+            let Some(replies) = engine.borrow_mut().work() else {
+                at_work.set(false);
+                return;
+            };
+            for reply in replies {
+                send(&scope, &Outgoing::Reply(reply));
+            }
+            let _ = again.port2().post_message(&JsValue::NULL);
+        })
+    };
+    again.port1().set_onmessage(Some(on_slice.as_ref().unchecked_ref()));
+    on_slice.forget();
+    let mut bench = Bench::default();
+    let outbox = scope.clone();
+    let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
+        let bytes = event.data().dyn_into::<Uint8Array>().map(|array| array.to_vec()).unwrap_or_default();
+        match postcard::from_bytes(&bytes) {
+            Ok(Incoming::Request(request)) => {
+                engine.borrow_mut().submit(request);
+                if !at_work.replace(true) {
+                    let _ = again.port2().post_message(&JsValue::NULL);
+                }
+            }
+            Ok(Incoming::Task(task)) => {
+                if let Some(batch) = bench.serve(&task, Places::answer) {
+                    send(&outbox, &Outgoing::Batch(batch));
+                }
+            }
+            Err(_) => {}
+        }
+    });
+    scope.set_onmessage(Some(on_message.as_ref().unchecked_ref()));
+    on_message.forget();
+    scope.post_message(&READY.into())
+}
+
+fn send(scope: &DedicatedWorkerGlobalScope, message: &Outgoing) {
+    if let Ok(bytes) = postcard::to_stdvec(message) {
+        // Posting fails only for what cannot be cloned; bytes can.
+        let _ = scope.post_message(&Uint8Array::from(bytes.as_slice()));
+    }
+}
