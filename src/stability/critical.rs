@@ -126,13 +126,14 @@ pub struct CriticalSearch {
 }
 
 impl CriticalSearch {
-    /// A search from rest to `limit` (m/s).
+    /// A search from rest to `limit` (m/s); there is nothing to search where it is not greater than 0.
     pub fn new(limit: f64) -> Self {
         Self::by(Method::default(), limit)
     }
 
     /// The same by `method`.
     pub fn by(method: Method, limit: f64) -> Self {
+        let limit = if limit > 0.0 { limit } else { 0.0 };
         Self { limit, method, solver: None, steps: 0, samples: Vec::new() }
     }
 
@@ -183,7 +184,7 @@ impl CriticalSearch {
         self.samples.push(Sample { speed, growth_rate });
         // At rest nothing grows: without damping the real parts are zero but for rounding.
         if speed == 0.0 {
-            return Ok(None);
+            return Ok((self.limit == 0.0).then_some(Outcome::NoneUpTo(0.0)));
         }
         // What a growth rate must exceed to count as positive: zero; without damping, rounding.
         let threshold = if is_undamped(vibration) { ROUNDING * scale } else { 0.0 };
@@ -248,4 +249,26 @@ fn refine(
         }
     }
     Ok(0.5 * (stable + unstable))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::{Damping, Motion, Robot, RobotSpec, paper_spec};
+    use crate::study::Local;
+
+    /// Also by the scan, which undamped robots are left to.
+    #[test]
+    fn a_search_up_to_no_speed_ends_at_once() {
+        for damping in [paper_spec().damping, Damping { alpha: 0.0, beta: 0.0 }] {
+            let robot = Robot::new(RobotSpec { damping, ..paper_spec() }).unwrap();
+            let local = Local::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+            for limit in [0.0, -1.0, f64::NAN] {
+                for method in [Method::Structured, Method::Dense] {
+                    let outcome = CriticalSearch::by(method, limit).run(&local.vibration);
+                    assert_eq!(outcome, Ok(Outcome::NoneUpTo(0.0)), "{method:?} up to {limit}");
+                }
+            }
+        }
+    }
 }
