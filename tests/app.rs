@@ -9,6 +9,7 @@ use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Theme, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, Node};
 use tautline::app::Tautline;
+use tautline::compute::protocol::Topic;
 use tautline::robot::{Linearisation, Strain, TensionLaw};
 use tautline::scenario::{Report, Scenario, presets};
 
@@ -435,4 +436,221 @@ fn the_growth_plot_belongs_to_the_robot_on_show() {
         std::thread::sleep(Duration::from_millis(2));
         app.step();
     }
+}
+
+/// Steps until a study is finished.
+fn finish(app: &mut Harness<'static, Tautline>, topic: Topic) {
+    app.run_steps(3);
+    wait(app, "a study", |app| app.study(topic).2);
+    app.run_steps(20); // The picture is made anew every tenth of a second.
+}
+
+/// Moves the pointer to a point of the world on the canvas, in m.
+fn on_canvas(app: &Harness<'static, Tautline>, [x, y]: [f64; 2]) -> Pos2 {
+    let [left, right] = [1, 2].map(|cable| winch(app, cable));
+    let scale = (right.x - left.x) / 20.0;
+    #[expect(clippy::cast_possible_truncation)]
+    let [x, y] = [x as f32, y as f32];
+    Pos2::new(left.x + (x + 10.0) * scale, left.y - (y - 5.0) * scale)
+}
+
+/// Where a winch of the paper's robot is on the screen: the canvas shows the whole robot with the platform, at the
+/// origin, in the middle.
+fn winch(app: &Harness<'static, Tautline>, cable: usize) -> Pos2 {
+    let canvas = app.get_by_label("Robot canvas").rect();
+    let scale = ((canvas.width() - 88.0) / 20.0).min((canvas.height() - 88.0) / 10.0);
+    let side = if cable == 1 { -1.0 } else { 1.0 };
+    canvas.center() + Vec2::new(10.0 * scale * side, -5.0 * scale)
+}
+
+/// What a label says.
+fn text_of(node: &Node<'_>) -> String {
+    let node = node.accesskit_node();
+    node.label().or(node.value()).unwrap_or_default()
+}
+
+fn switch_the_map_on(app: &mut Harness<'static, Tautline>) {
+    app.get_by_role_and_label(Role::Button, "Map").click();
+    app.run_steps(3);
+}
+
+#[test]
+fn the_map_reads_what_the_core_says_and_a_click_moves_the_platform() {
+    let mut app = app();
+    switch_the_map_on(&mut app);
+    finish(&mut app, Topic::Map);
+    assert_eq!(app.state().study(Topic::Map).1, 41 * 21);
+    assert!(app.query_by_label("Cancel").is_none(), "nothing is left to cancel");
+
+    // Near (3, 1), a point of the map.
+    app.hover_at(on_canvas(&app, [3.05, 1.04]));
+    app.run_steps(3);
+    let mut scenario = paper();
+    scenario.motion.position = [3.0, 1.0];
+    let expected = cold(&scenario).critical.expect("a critical speed");
+    let reading = format!("At (3.00, 1.00) m:\ncritical speed {:.4} m/s\n", expected.speed);
+    let text = text_of(&app.get_by_label_contains("At (3.00, 1.00) m"));
+    assert!(text.starts_with(&reading) && text.ends_with(&format!("cable {}", expected.cable)), "{text}");
+    app.hover_at(on_canvas(&app, [9.9, 0.0]));
+    app.run_steps(3);
+    assert!(app.query_by_label_contains("At (10.00, 0.00) m:\nno equilibrium").is_some());
+
+    let before = app.state().study(Topic::Map);
+    let there = on_canvas(&app, [3.0, 1.0]);
+    click_at(&mut app, there);
+    settle(&mut app);
+    let [x, y] = app.state().scenario().motion.position;
+    assert!((x - 3.0).abs() < 0.05 && (y - 1.0).abs() < 0.05, "{x} {y}");
+    assert_eq!(app.state().study(Topic::Map), before, "the map does not depend on the pose");
+
+    // Another quantity of the same study, then another study and back: nothing is computed twice.
+    for (quantity, again) in [("Frequency", true), ("Cable", true), ("Growth rate", false), ("Critical speed", true)] {
+        app.get_by_role_and_label(Role::ComboBox, "Map quantity").click();
+        app.run_steps(3);
+        // The last of that name is the list's entry; a tab has the same name.
+        let entry = app.get_all_by_label(quantity).last().expect("an entry").rect().center();
+        click_at(&mut app, entry);
+        app.run_steps(2);
+        assert_eq!(app.state().study(Topic::Map).2, again, "{quantity}");
+    }
+    nothing_shows_nan(&app);
+}
+
+#[test]
+fn a_map_can_be_cancelled_resumed_and_begins_anew_with_another_robot() {
+    let mut app = app();
+    switch_the_map_on(&mut app);
+    wait(&mut app, "the map", |app| app.study(Topic::Map).0 > 0);
+    app.get_by_label("Cancel").click();
+    app.run_steps(5);
+    let stopped = app.state().study(Topic::Map);
+    assert!(stopped.0 < stopped.1 && !stopped.2, "{stopped:?}");
+    std::thread::sleep(Duration::from_millis(200));
+    app.run_steps(5);
+    assert_eq!(app.state().study(Topic::Map), stopped, "it goes on");
+    app.get_by_label("Resume").click();
+    finish(&mut app, Topic::Map);
+
+    let reading = |app: &mut Harness<'static, Tautline>| {
+        app.hover_at(on_canvas(app, [1.0, 1.0]));
+        app.run_steps(3);
+        text_of(&app.get_by_label_contains("At (1.00, 1.00) m"))
+    };
+    let before = reading(&mut app);
+    type_value(&mut app, "Young's modulus E", "200");
+    finish(&mut app, Topic::Map);
+    let after = reading(&mut app);
+    assert_ne!(before, after);
+    let mut scenario = app.state().scenario().clone();
+    scenario.motion.position = [1.0, 1.0];
+    let expected = cold(&scenario).critical.expect("a critical speed").speed;
+    assert!(after.contains(&format!("critical speed {expected:.4} m/s")), "{after} in place of {expected}");
+
+    // Switched off, nothing is computed.
+    app.get_by_role_and_label(Role::Button, "Map").click();
+    app.run_steps(3);
+    type_value(&mut app, "Young's modulus E", "210");
+    app.run_steps(5);
+    assert!(!app.state().study(Topic::Map).2);
+}
+
+fn open(app: &mut Harness<'static, Tautline>, tab: &str) {
+    app.get_by_role_and_label(Role::Button, tab).click();
+    app.run_steps(3);
+}
+
+#[test]
+fn the_line_shows_both_findings_and_follows_the_robot() {
+    let mut app = app();
+    open(&mut app, "Along the line");
+    finish(&mut app, Topic::Line);
+    // The paper's findings hold for its robot on the middle line.
+    assert!(app.query_by_label_contains("critical speed falls").is_some());
+    assert!(app.query_by_label_contains("the frequency rises").is_some());
+    app.get_by_label("What am I seeing?").click();
+    app.run_steps(30);
+    assert!(app.query_by_label_contains("The platform passes every point of the straight line").is_some());
+
+    // Along the line nothing changes; beside it everything does.
+    app.get_by_label("Platform").focus();
+    app.run_steps(2);
+    app.key_press(Key::ArrowRight);
+    settle(&mut app);
+    assert!(app.state().study(Topic::Line).2);
+    app.key_press(Key::ArrowUp);
+    app.run_steps(2);
+    assert!(!app.state().study(Topic::Line).2);
+    finish(&mut app, Topic::Line);
+    nothing_shows_nan(&app);
+}
+
+#[test]
+fn one_click_moves_in_the_worst_direction() {
+    let mut app = app();
+    open(&mut app, "Directions");
+    finish(&mut app, Topic::Polar);
+    let lowest = (0..72)
+        .filter_map(|k| {
+            let (sine, cosine) = (f64::from(k) * 5.0).to_radians().sin_cos();
+            let mut scenario = paper();
+            scenario.motion.direction = [cosine, sine];
+            cold(&scenario).critical.map(|critical| critical.speed)
+        })
+        .fold(f64::INFINITY, f64::min);
+    app.get_by_label_contains(&format!("critical at {lowest:.4} m/s"));
+    app.get_by_label("Move in the worst direction").click();
+    settle(&mut app);
+    let speed = report(&app).critical.expect("a critical speed").speed;
+    assert!((speed - lowest).abs() < 1e-6, "{speed} in place of {lowest}");
+    assert!(app.state().study(Topic::Polar).2, "the diagram does not depend on the direction");
+    nothing_shows_nan(&app);
+}
+
+#[test]
+fn a_click_on_the_campbell_diagram_sets_the_speed() {
+    let mut app = app();
+    open(&mut app, "Campbell");
+    finish(&mut app, Topic::Campbell);
+    // The plots fill the lower right.
+    click_at(&mut app, Pos2::new(SIZE.x - 100.0, SIZE.y - 150.0));
+    settle(&mut app);
+    let speed = app.state().scenario().motion.speed;
+    assert!((5.5..15.0).contains(&speed), "{speed}");
+    assert!(app.state().study(Topic::Campbell).2, "the diagram does not depend on the speed");
+    nothing_shows_nan(&app);
+}
+
+#[test]
+fn the_mesh_tells_its_error() {
+    let mut app = app();
+    open(&mut app, "Mesh");
+    finish(&mut app, Topic::Convergence);
+    app.get_by_label_contains("With 10 elements the critical speed is ");
+    type_value(&mut app, "Elements per cable n", "20");
+    app.get_by_label_contains("With 20 elements the critical speed is ");
+    assert!(app.state().study(Topic::Convergence).2, "20 elements were among the meshes");
+    nothing_shows_nan(&app);
+}
+
+#[test]
+fn maps_and_plots_of_studies_fit_a_phone() {
+    let mut app = app_with(paper(), Vec2::new(360.0, 740.0), Theme::Dark);
+    switch_the_map_on(&mut app);
+    app.get_by_label("Plots").click();
+    app.run_steps(3);
+    for tab in ["Along the line", "Directions", "Campbell", "Mesh"] {
+        open(&mut app, tab);
+        for label in ["Map", tab, "What am I seeing?"] {
+            let deadline = Instant::now() + PATIENCE;
+            while app.query_by_label(label).is_none() {
+                assert!(Instant::now() < deadline, "no {label}");
+                std::thread::sleep(Duration::from_millis(2));
+                app.step();
+            }
+            let rect = app.get_by_label(label).rect();
+            assert!(rect.max.x <= 361.0 && rect.min.x >= -1.0, "{label} sticks out: {rect:?}");
+        }
+    }
+    let list = app.get_by_role_and_label(Role::ComboBox, "Map quantity").rect();
+    assert!(list.min.x >= 0.0, "{list:?}");
 }

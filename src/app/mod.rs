@@ -10,21 +10,28 @@ mod fields;
 #[cfg(target_arch = "wasm32")]
 mod page;
 mod panels;
+mod series;
 mod state;
+mod studies;
 mod theme;
+
+use std::time::Duration;
 
 use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
 
-use answers::Answers;
+use answers::{Answers, CriticalState};
 use state::{Command, Document, Page, UiState};
+use studies::{Order, Studies};
 
-use crate::compute::Compute;
-use crate::compute::protocol::{Job, Request, Revision, Update, Which};
+use crate::compute::protocol::{Job, Request, Revision, Topic, Update, Which};
+use crate::compute::{Compute, Pool};
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::scenario::{Report, Scenario};
 
 /// Below this width, in points, the panels go under the canvas.
 const NARROW: f32 = 760.0;
+/// While studies are at work the pool is looked after at least this often.
+const HEARTBEAT: Duration = Duration::from_millis(100);
 
 /// The application.
 pub struct Tautline {
@@ -34,6 +41,15 @@ pub struct Tautline {
     state: UiState,
     answers: Answers,
     compute: Option<Compute>,
+    studies: Studies,
+    pool: Pool,
+    /// The document has changed since the pointer was pressed: a drag, which has priority over studies.
+    dragging: bool,
+    /// Whether the plots were drawn in the last frame; a narrow screen may not show them.
+    plots_open: bool,
+    /// Pictures made of studies, kept from frame to frame.
+    layer: canvas::map::Layer,
+    joined: panels::campbell::Modes,
     revision: Revision,
     notice: Option<String>,
     commands: Vec<Command>,
@@ -56,7 +72,7 @@ impl Tautline {
     /// The application with `scenario`, which must be physical.
     pub fn new(context: &egui::Context, scenario: Scenario) -> Self {
         theme::install_fonts(context);
-        let wake = context.clone();
+        let (wake, wake_for_studies) = (context.clone(), context.clone());
         let mut answers = Answers::default();
         let compute = match Compute::start(move || wake.request_repaint()) {
             Ok(compute) => Some(compute),
@@ -71,6 +87,12 @@ impl Tautline {
             state: UiState::default(),
             answers,
             compute,
+            studies: Studies::default(),
+            pool: Pool::new(move || wake_for_studies.request_repaint()),
+            dragging: false,
+            plots_open: false,
+            layer: canvas::map::Layer::default(),
+            joined: panels::campbell::Modes::default(),
             revision: 0,
             notice: None,
             commands: Vec::new(),
@@ -99,6 +121,12 @@ impl Tautline {
     /// [Re λ, Im λ] of the mode whose shape is on the canvas, in 1/s.
     pub fn mode_on_show(&self) -> Option<[f64; 2]> {
         self.answers.shape().map(|shape| shape.eigenvalue)
+    }
+
+    /// How far a study has come: places answered, all places, and whether it is finished.
+    pub fn study(&self, topic: Topic) -> (usize, usize, bool) {
+        let progress = self.studies.progress(topic);
+        (progress.done, progress.total, progress.stage == studies::Stage::Finished)
     }
 
     /// Sends the document to the engine.
@@ -131,6 +159,14 @@ impl Tautline {
                 self.state.mode = choice;
                 self.submit(&Request::Shape(choice));
             }
+            Command::StopStudy(topic) => {
+                let order = self.studies.stop(topic);
+                self.carry_out(order);
+            }
+            Command::ResumeStudy(topic) => {
+                let order = self.studies.resume(topic);
+                self.carry_out(order);
+            }
             Command::DismissNotice => self.notice = None,
         }
     }
@@ -144,7 +180,36 @@ impl Tautline {
         self.notice = None;
         if scenario != self.document.scenario {
             self.document.scenario = scenario;
+            self.dragging = true;
             self.analyze();
+        }
+    }
+
+    fn carry_out(&mut self, orders: impl IntoIterator<Item = Order>) {
+        for order in orders {
+            match order {
+                Order::Want(job) => self.pool.want(job),
+                Order::Cancel(topic) => self.pool.cancel(topic),
+            }
+        }
+    }
+
+    /// Asks for the studies of what is open and takes in what is known of them.
+    fn study_on(&mut self, context: &egui::Context) {
+        let critical = self.answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.speed);
+        let plot = self.plots_open.then_some(self.state.plot);
+        let wishes = studies::wanted(&self.document.scenario, &self.state, plot, critical);
+        let orders = self.studies.want(wishes);
+        self.carry_out(orders);
+        // Both want all of the machine; who drags must not wait.
+        self.dragging &= context.input(|input| input.pointer.any_down());
+        let engine_at_work = matches!(self.answers.critical(), CriticalState::Recomputing { .. });
+        self.pool.hold(self.dragging || engine_at_work);
+        for news in self.pool.poll() {
+            self.studies.take(news);
+        }
+        if self.studies.is_working() {
+            context.request_repaint_after(HEARTBEAT);
         }
     }
 
@@ -202,7 +267,7 @@ impl Tautline {
             ui.add_space(6.0);
             panels::answer::ui(ui, &self.document, &self.answers);
             ui.separator();
-            panels::plots::ui(&mut self.state, ui, &self.document, &self.answers, &mut self.commands);
+            self.plots(ui);
         });
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
     }
@@ -224,16 +289,21 @@ impl Tautline {
                     Page::Controls => {
                         panels::controls::ui(ui, &self.document, &self.original, &mut self.commands);
                     }
-                    Page::Plots => {
-                        panels::plots::ui(&mut self.state, ui, &self.document, &self.answers, &mut self.commands);
-                    }
+                    Page::Plots => self.plots(ui),
                 }
             });
         });
     }
 
+    fn plots(&mut self, ui: &mut Ui) {
+        self.plots_open = true;
+        let Self { joined, state, document, answers, studies, commands, .. } = self;
+        panels::plots::ui(joined, state, ui, document, answers, studies, commands);
+    }
+
     fn canvas(&mut self, ui: &mut Ui) {
-        canvas::ui(&mut self.state, ui, &self.document, &self.answers, &mut self.commands);
+        let Self { layer, state, document, answers, studies, commands, .. } = self;
+        canvas::ui(layer, state, ui, document, answers, studies, commands);
     }
 }
 
@@ -245,15 +315,17 @@ impl eframe::App for Tautline {
             self.apply(command);
         }
         self.take_replies();
+        self.study_on(context);
         self.animate(context);
         #[cfg(target_arch = "wasm32")]
-        self.page.publish(&self.document.scenario, &self.answers, frame.info().cpu_usage);
+        self.page.publish(&self.document.scenario, &self.answers, &self.studies, frame.info().cpu_usage);
         #[cfg(not(target_arch = "wasm32"))]
         let _ = frame;
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.notice_bar(ui);
+        self.plots_open = false;
         if ui.available_width() < NARROW {
             self.narrow(ui);
         } else {

@@ -1,19 +1,24 @@
 //! `window.tautline`: what the page's scripts and tests see, and the text mirror for screen readers.
 
 use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::rc::Rc;
 
 use eframe::egui;
-use js_sys::{JSON, Object, Reflect};
+use js_sys::{Array, JSON, Object, Reflect};
+use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
 use crate::app::answers::{Answers, CriticalState};
-use crate::compute::protocol::Revision;
+use crate::app::studies::{Known, Stage, Studies, TOPICS};
+use crate::compute::protocol::{PlaceAnswer, Revision, Topic, VerdictAnswer};
 use crate::scenario::Scenario;
 use crate::scenario::report::KindReport;
 
 /// The element that mirrors the main results as text.
 const SUMMARY: &str = "tautline-summary";
+/// So many frames' times are kept.
+const FRAMES: usize = 120;
 
 /// The page's side of the application.
 pub struct Page {
@@ -28,6 +33,11 @@ struct Shared {
     analysis: Option<String>,
     analysis_key: Option<(Revision, bool)>,
     frame_ms: Option<f64>,
+    frames_ms: VecDeque<f64>,
+    studies: Value,
+    /// The map's rows are written only for those who have asked for studies.
+    asked: bool,
+    map: Option<((Revision, usize), bool, String)>,
     analysis_ms: Option<f64>,
 }
 
@@ -48,12 +58,18 @@ impl Page {
     }
 
     /// Makes the state of this frame visible.
-    pub fn publish(&mut self, scenario: &Scenario, answers: &Answers, frame_seconds: Option<f32>) {
+    pub fn publish(&mut self, scenario: &Scenario, answers: &Answers, studies: &Studies, frame_seconds: Option<f32>) {
         let mut shared = self.shared.borrow_mut();
         if shared.loaded.is_none() {
             shared.scenario = scenario.to_json();
         }
         shared.frame_ms = frame_seconds.map(|seconds| 1e3 * f64::from(seconds));
+        let frame = shared.frame_ms;
+        shared.frames_ms.extend(frame);
+        while shared.frames_ms.len() > FRAMES {
+            shared.frames_ms.pop_front();
+        }
+        shared.publish_studies(studies);
         shared.analysis_ms = answers.last_critical().map(|answer| answer.elapsed_ms);
         if let Some((report, revision, current)) = answers.complete()
             && shared.analysis_key != Some((revision, current))
@@ -96,7 +112,70 @@ impl Page {
     }
 }
 
-/// The object with `scenario()`, `load(json)`, `analysis()` and `timings()`.
+impl Shared {
+    fn publish_studies(&mut self, studies: &Studies) {
+        self.studies = TOPICS
+            .iter()
+            .map(|&topic| {
+                let progress = studies.progress(topic);
+                let finished = progress.stage == Stage::Finished;
+                let current = studies.shown(topic).is_some_and(|shown| shown.current);
+                let state = json!({
+                    "done": progress.done, "total": progress.total, "finished": finished,
+                    "revision": progress.revision, "current": current,
+                });
+                (name(topic).to_owned(), state)
+            })
+            .collect();
+        // Not while answers come in: they would be written in every frame.
+        let at_rest = studies.progress(Topic::Map).stage != Stage::Working;
+        if let Some(shown) = studies.shown(Topic::Map).filter(|_| self.asked && at_rest) {
+            let known = shown.known;
+            let newest = self
+                .map
+                .as_ref()
+                .is_some_and(|(version, current, _)| (*version, *current) == (known.version, shown.current));
+            if !newest {
+                let rows = json!({ "current": shown.current, "rows": rows(known) }).to_string();
+                self.map = Some((known.version, shown.current, rows));
+            }
+        }
+    }
+}
+
+fn name(topic: Topic) -> &'static str {
+    match topic {
+        Topic::Line => "line",
+        Topic::Map => "map",
+        Topic::Polar => "polar",
+        Topic::Campbell => "campbell",
+        Topic::Convergence => "convergence",
+    }
+}
+
+/// The answered points of a map, each [x, y, feasible, critical speed, frequency, kind, cable] with null where there is
+/// none, or [x, y, growth rate].
+fn rows(known: &Known) -> Vec<Value> {
+    let Some(grid) = known.wish.grid() else { return Vec::new() };
+    let row = |(index, answer): (usize, &Option<PlaceAnswer>)| {
+        let at = grid.position(index);
+        match answer.as_ref()? {
+            PlaceAnswer::Critical { verdict: VerdictAnswer::Critical(critical), .. } => {
+                let (speed, frequency) = (critical.speed, critical.frequency_hz);
+                Some(json!([at.x, at.y, true, speed, frequency, critical.kind, critical.cable]))
+            }
+            PlaceAnswer::Critical { verdict, .. } => {
+                let feasible = *verdict != VerdictAnswer::Infeasible;
+                Some(json!([at.x, at.y, feasible, null, null, null, null]))
+            }
+            PlaceAnswer::Growth(rate) => Some(json!([at.x, at.y, rate])),
+            PlaceAnswer::Spectrum(_) => None,
+        }
+    };
+    known.places.iter().enumerate().filter_map(row).collect()
+}
+
+/// The object with `scenario()`, `load(json)`, `analysis()`, `studies()` and `timings()`.
 fn interface(shared: &Rc<RefCell<Shared>>, context: &egui::Context) -> Object {
     let object = Object::new();
     let set = |name: &str, function: JsValue| {
@@ -114,9 +193,25 @@ fn interface(shared: &Rc<RefCell<Shared>>, context: &egui::Context) -> Object {
         let number = |value: Option<f64>| value.map_or(JsValue::NULL, JsValue::from_f64);
         let _ = Reflect::set(&timings, &"frame_ms".into(), &number(state.borrow().frame_ms));
         let _ = Reflect::set(&timings, &"analysis_ms".into(), &number(state.borrow().analysis_ms));
+        let frames: Array = state.borrow().frames_ms.iter().map(|ms| JsValue::from_f64(*ms)).collect();
+        let _ = Reflect::set(&timings, &"frames_ms".into(), &frames);
         JsValue::from(timings)
     };
     set("timings", Closure::<dyn Fn() -> JsValue>::new(timings).into_js_value());
+    let (state, repaint) = (shared.clone(), context.clone());
+    let studies = move || {
+        let mut state = state.borrow_mut();
+        if !state.asked {
+            state.asked = true;
+            repaint.request_repaint();
+        }
+        let studies = parsed(&state.studies.to_string());
+        if let Some((_, _, map)) = &state.map {
+            let _ = Reflect::set(&studies, &"map_values".into(), &parsed(map));
+        }
+        studies
+    };
+    set("studies", Closure::<dyn FnMut() -> JsValue>::new(studies).into_js_value());
     let (state, context) = (shared.clone(), context.clone());
     let load = move |json: JsValue| -> Result<(), JsValue> {
         // An object is as good as its text.

@@ -1,6 +1,6 @@
 //! The interface's own state: what is edited, how it is looked at, and what panels ask for.
 
-use crate::compute::protocol::{ModeChoice, Which};
+use crate::compute::protocol::{ModeChoice, Topic, Which};
 use crate::scenario::Scenario;
 
 /// What the user edits. Everything else on the screen follows from it.
@@ -19,6 +19,10 @@ pub enum Command {
     Load(Box<Scenario>),
     /// Show another mode's shape.
     ChooseMode(ModeChoice),
+    /// Stop a study; what is known of it stays.
+    StopStudy(Topic),
+    /// Go on with a study that was stopped.
+    ResumeStudy(Topic),
     /// Take the notice off the screen.
     DismissNotice,
 }
@@ -33,6 +37,41 @@ pub enum Plot {
     Growth,
     /// The table of modes.
     Modes,
+    /// Critical speed and frequency along the motion.
+    Line,
+    /// Critical speed against direction.
+    Directions,
+    /// All eigenvalues against speed.
+    Campbell,
+    /// Critical speed against the mesh.
+    Mesh,
+}
+
+/// What the map under the robot shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MapQuantity {
+    /// The critical speed.
+    #[default]
+    Speed,
+    /// The frequency at the critical speed.
+    Frequency,
+    /// Flutter or divergence.
+    Kind,
+    /// The responsible cable.
+    Cable,
+    /// The largest growth rate at today's speed.
+    Growth,
+}
+
+/// The map under the robot.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct MapView {
+    /// Whether it is switched on.
+    pub on: bool,
+    /// What it shows.
+    pub quantity: MapQuantity,
+    /// In the worst of 16 directions, rather than the motion's.
+    pub worst: bool,
 }
 
 /// What a narrow screen shows below the canvas.
@@ -58,6 +97,10 @@ pub struct UiState {
     pub playback: Playback,
     /// The canvas's zoom and pan.
     pub camera: Camera,
+    /// The map under the robot.
+    pub map: MapView,
+    /// Up to which frequency the Campbell diagram is drawn, in Hz.
+    pub campbell_hz: f64,
 }
 
 impl Default for UiState {
@@ -68,6 +111,8 @@ impl Default for UiState {
             mode: ModeChoice { which: Which::Critical, along_x: false },
             playback: Playback::default(),
             camera: Camera::default(),
+            map: MapView::default(),
+            campbell_hz: 5.0,
         }
     }
 }

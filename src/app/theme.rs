@@ -1,4 +1,4 @@
-//! Colours: one accent, and a colour-blind-safe sequential map for tension.
+//! Colours: one accent, a colour-blind-safe sequential map for values, and colours for classes.
 
 use eframe::egui::{Color32, Context, FontDefinitions, FontFamily, Visuals};
 
@@ -54,4 +54,21 @@ pub fn sequential(part: f64, visuals: &Visuals) -> Color32 {
         byte
     };
     Color32::from_rgb(mix(0), mix(1), mix(2))
+}
+
+/// The colour of a class, the first eight without an order: those of Okabe and Ito ("Color Universal Design", 2008),
+/// which colour-blind people tell apart.
+pub fn class(class: usize) -> Color32 {
+    const COLOURS: [[u8; 3]; 8] = [
+        [86, 180, 233],
+        [230, 159, 0],
+        [0, 158, 115],
+        [204, 121, 167],
+        [240, 228, 66],
+        [0, 114, 178],
+        [213, 94, 0],
+        [128, 128, 128],
+    ];
+    let [r, g, b] = COLOURS[class % COLOURS.len()];
+    Color32::from_rgb(r, g, b)
 }

@@ -101,7 +101,7 @@ fn drag(ui: &Ui, response: &Response, centre: Pos2) -> Option<Pos2> {
 }
 
 /// The roundest number within half a point of the screen: a hand cannot mean it more exactly.
-fn roundest(value: f64, point: f64) -> f64 {
+pub fn roundest(value: f64, point: f64) -> f64 {
     best_in_range_f64(value - 0.5 * point, value + 0.5 * point)
 }
 
@@ -123,9 +123,10 @@ fn keys(ui: &Ui, response: &Response) -> Option<([f64; 2], f64)> {
     })
 }
 
-/// Zoom with the wheel or two fingers, pan by dragging the background, double-click to see the whole robot.
-pub fn camera(ui: &Ui, background: &Response, view: &View, camera: &mut Camera) {
-    if background.double_clicked() {
+/// Zoom with the wheel or two fingers, pan by dragging the background; where clicks mean nothing else, double-click to
+/// see the whole robot.
+pub fn camera(ui: &Ui, background: &Response, view: &View, camera: &mut Camera, clicks_are_free: bool) {
+    if background.double_clicked() && clicks_are_free {
         *camera = Camera::default();
         return;
     }

@@ -1,6 +1,8 @@
-//! The robot, drawn and dragged: model (what there is), view (where it is on the screen), paint, and handles.
+//! The robot, drawn and dragged: model (what there is), view (where it is on the screen), paint, handles, and the map
+//! under it.
 
 mod handles;
+pub mod map;
 mod model;
 mod paint;
 mod view;
@@ -8,21 +10,49 @@ mod view;
 use eframe::egui::{self, Sense, Ui};
 
 pub use model::{Scene, frame, phase_advance};
+pub use paint::grid_step;
 pub use view::View;
 
 use crate::app::answers::Answers;
-use crate::app::state::{Command, Document, UiState};
+use crate::app::series;
+use crate::app::state::{Command, Document, Plot, UiState};
+use crate::app::studies::Studies;
+use crate::compute::protocol::Topic;
 
-/// Draws the canvas in all the room there is, and turns drags and keys into commands.
-pub fn ui(state: &mut UiState, ui: &mut Ui, document: &Document, answers: &Answers, commands: &mut Vec<Command>) {
+/// Draws the canvas in all the room there is, and turns drags, clicks and keys into commands.
+pub fn ui(
+    layer: &mut map::Layer,
+    state: &mut UiState,
+    ui: &mut Ui,
+    document: &Document,
+    answers: &Answers,
+    studies: &Studies,
+    commands: &mut Vec<Command>,
+) {
     let (rect, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Robot canvas"));
     let scene = Scene::new(&document.scenario, answers, &state.playback);
     let view = View::new(rect, scene.frame, state.camera);
     let mut painter = ui.painter_at(rect);
     painter.set_clip_rect(rect.intersect(ui.clip_rect()));
-    paint::scene(&painter, ui.visuals(), &view, &scene);
+    paint::background(&painter, ui.visuals(), &view);
+    layer.update(ui, studies, state.map);
+    layer.paint(&painter, ui, &view);
+    paint::scene(&painter, ui.visuals(), &view, &scene, state.map.on);
+    // The marker belongs to the diagram beside it, and to one pose.
+    let polar = studies.shown(Topic::Polar).filter(|shown| shown.current && state.plot == Plot::Directions);
+    if let Some((direction, speed)) = polar.and_then(|shown| series::worst_direction(shown.known)) {
+        paint::worst(&painter, ui.visuals(), &view, &scene, direction, speed);
+    }
+    if state.map.on {
+        map::point(ui, &painter, &background, &view, document, studies, commands);
+    }
     handles::ui(ui, &painter, &view, &scene, document, commands);
-    handles::camera(ui, &background, &view, &mut state.camera);
-    paint::legend(&painter, ui.visuals(), rect, &scene);
+    handles::camera(ui, &background, &view, &mut state.camera, !state.map.on);
+    if state.map.on {
+        layer.legend(&painter, ui, rect, document.scenario.motion.speed);
+    } else {
+        paint::legend(&painter, ui.visuals(), rect, &scene);
+    }
+    map::controls(ui, rect, state, studies, commands);
 }

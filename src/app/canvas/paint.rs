@@ -11,9 +11,14 @@ pub const ARROW_GAP: f32 = 26.0;
 /// Longer lines than this, in points, are not dashed.
 const LONGEST_DASHED: f32 = 1e4;
 
-/// Draws everything but the handles.
-pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
+/// Draws what is under everything.
+pub fn background(painter: &Painter, visuals: &Visuals, view: &View) {
     painter.rect_filled(view.rect, 0.0, visuals.extreme_bg_color);
+}
+
+/// Draws everything but the background and the handles. Over a map, whose colours mean something else, cables do not
+/// show their tension.
+pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, over_map: bool) {
     grid(painter, visuals, view, scene);
     for cable in &scene.cables {
         if cable.nodes.is_empty() {
@@ -31,10 +36,18 @@ pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
             let colour = theme::warning(visuals).gamma_multiply(0.30);
             polyline(painter, view, &cable.nodes, Stroke::new(11.0, colour));
         }
+        if over_map {
+            polyline(painter, view, &cable.vibrating, Stroke::new(4.0, visuals.extreme_bg_color.gamma_multiply(0.6)));
+        }
         polyline(painter, view, &cable.vibrating, Stroke::new(1.6, theme::accent(visuals)));
     }
     // Over the vibration, so that the tension stays to be seen where a mode moves little.
     for cable in &scene.cables {
+        if over_map {
+            polyline(painter, view, &cable.nodes, Stroke::new(6.0, visuals.extreme_bg_color.gamma_multiply(0.85)));
+            polyline(painter, view, &cable.nodes, Stroke::new(2.5, visuals.strong_text_color()));
+            continue;
+        }
         for (ends, &force) in cable.nodes.windows(2).zip(&cable.forces) {
             let colour = theme::sequential(part(force, scene.tensions), visuals);
             let ends = [view.pos_in_ui(ends[0]), view.pos_in_ui(ends[1])];
@@ -94,7 +107,7 @@ fn grid(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
 }
 
 /// The smallest of 1, 2, 5 times a power of ten that is at least `least`.
-fn grid_step(least: f64) -> f64 {
+pub fn grid_step(least: f64) -> f64 {
     let decade = 10.0_f64.powf(least.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|digit| digit * decade).find(|&step| step >= least).unwrap_or(10.0 * decade)
 }
@@ -134,9 +147,34 @@ fn arrow(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
     let tip = arrow_tip(view, scene);
     let colour = theme::accent(visuals);
     let across = direction.rot90();
+    let rim = Stroke::new(1.5, visuals.extreme_bg_color);
+    painter.line_segment([start, tip - direction * 8.0], Stroke::new(6.0, rim.color));
     painter.line_segment([start, tip - direction * 8.0], Stroke::new(3.0, colour));
     let head = vec![tip, tip - direction * 12.0 + across * 6.0, tip - direction * 12.0 - across * 6.0];
-    painter.add(Shape::convex_polygon(head, colour, Stroke::NONE));
+    painter.add(Shape::convex_polygon(head, colour, rim));
+}
+
+/// A dashed arrow in the direction with the lowest critical speed, with that speed in m/s.
+pub fn worst(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, direction: [f64; 2], speed: f64) {
+    let colour = theme::warning(visuals);
+    let platform = view.pos_in_ui(scene.platform);
+    let ahead = View::direction_in_ui(direction);
+    let across = ahead.rot90();
+    let tip = platform + ahead * 74.0;
+    painter.extend(Shape::dashed_line(
+        &[platform + ahead * 14.0, tip - ahead * 8.0],
+        Stroke::new(2.5, colour),
+        5.0,
+        4.0,
+    ));
+    let head = vec![tip, tip - ahead * 12.0 + across * 6.0, tip - ahead * 12.0 - across * 6.0];
+    painter.add(Shape::convex_polygon(head, visuals.extreme_bg_color, Stroke::new(2.0, colour)));
+    let text = format!("worst: {speed:.2} m/s");
+    let galley = painter.layout_no_wrap(text, FontId::proportional(12.0), colour);
+    let middle = tip + ahead * (8.0 + 0.5 * (galley.size() * ahead.abs()).length());
+    let room = Rect::from_center_size(middle, galley.size());
+    painter.rect_filled(room.expand(2.0), 2.0, visuals.extreme_bg_color.gamma_multiply(0.8));
+    painter.galley(room.min, galley, colour);
 }
 
 /// The colour bar of the tensions, in the canvas's upper left corner.

@@ -18,6 +18,9 @@ pub struct View {
 }
 
 impl View {
+    /// How an image whose first row is the lowest one is laid on the screen.
+    pub const IMAGE: Rect = Rect { min: Pos2::new(0.0, 1.0), max: Pos2::new(1.0, 0.0) };
+
     /// Shows `frame` ([left, bottom, right, top] in m) in `rect`, magnified and moved by `camera`.
     pub fn new(rect: Rect, frame: [f64; 4], camera: Camera) -> Self {
         let [left, bottom, right, top] = frame;
@@ -32,6 +35,11 @@ impl View {
     pub fn pos_in_ui(&self, pos_in_world: [f64; 2]) -> Pos2 {
         let [x, y] = [0, 1].map(|i| (pos_in_world[i] - self.centre[i]) * self.scale);
         self.rect.center() + Vec2::new(x as f32, -y as f32)
+    }
+
+    /// Where a rectangle of the world, [left, bottom, right, top] in m, is on the screen.
+    pub fn rect_in_ui(&self, [left, bottom, right, top]: [f64; 4]) -> Rect {
+        Rect::from_two_pos(self.pos_in_ui([left, bottom]), self.pos_in_ui([right, top]))
     }
 
     /// Which world point (m, y up) is at a point of the screen (points, y down).

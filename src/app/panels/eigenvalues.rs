@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use eframe::egui::Ui;
 use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
 
-use super::{STALE, near};
+use super::{STALE, explain, near};
 use crate::app::answers::Answers;
 use crate::app::state::Command;
 use crate::app::theme;
@@ -25,6 +25,11 @@ pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec
     } else {
         STALE
     });
+    explain(
+        ui,
+        "Every point is a way in which the robot vibrates at today's speed: how fast it grows (to the right) or dies \
+         away (to the left), and how often it swings. One point right of the line is enough for instability.",
+    );
     let visuals = ui.visuals().clone();
     let modes = pose.modes.iter().map(|mode| [mode.eigenvalue[0], mode.eigenvalue[1] / TAU]);
     let (unstable, stable): (Vec<_>, Vec<_>) = modes.partition(|[growth, _]| *growth > 0.0);

@@ -3,7 +3,7 @@
 use eframe::egui::Ui;
 use egui_plot::{Corner, HLine, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
 
-use super::STALE;
+use super::{STALE, explain};
 use crate::app::answers::Answers;
 use crate::app::state::Document;
 use crate::app::theme;
@@ -20,6 +20,11 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
     } else {
         STALE
     });
+    explain(
+        ui,
+        "At every speed there is one vibration that dies away most slowly, or grows fastest. This is its growth rate: \
+         below zero everything dies away, above zero something grows.",
+    );
     let colour = if current { theme::calm(&visuals) } else { visuals.weak_text_color() };
     Plot::new("growth")
         .x_axis_label("Speed (m/s)")

@@ -1,13 +1,23 @@
 //! The panels beside the canvas: the answer, the controls, the plots. One file each.
 
 pub mod answer;
+pub mod campbell;
 pub mod controls;
+pub mod directions;
 pub mod eigenvalues;
 pub mod growth;
+pub mod line;
+pub mod mesh;
 pub mod modes;
 pub mod plots;
 
-use crate::compute::protocol::{ModeChoice, Which};
+use eframe::egui::{CollapsingHeader, Ui};
+use egui_plot::{GridInput, GridMark};
+
+use crate::app::canvas;
+use crate::app::state::Command;
+use crate::app::studies::{Shown, Stage, Studies};
+use crate::compute::protocol::{ModeChoice, Topic, Which};
 
 /// Said over what belongs to an earlier state.
 const STALE: &str = "Being recomputed: this belongs to an earlier state.";
@@ -15,4 +25,40 @@ const STALE: &str = "Being recomputed: this belongs to an earlier state.";
 /// The mode choice that selects `eigenvalue`, keeping what else was chosen.
 fn near(choice: ModeChoice, eigenvalue: [f64; 2]) -> ModeChoice {
     ModeChoice { which: Which::Near(eigenvalue), ..choice }
+}
+
+/// What a plot shows, in plain words, for those who ask.
+fn explain(ui: &mut Ui, text: &str) {
+    CollapsingHeader::new("What am I seeing?").show(ui, |ui| ui.label(text));
+}
+
+/// Grid lines at round values, few enough that each has its label.
+#[expect(clippy::needless_pass_by_value)] // As egui_plot calls it.
+fn few_lines(input: GridInput) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    let step = canvas::grid_step((high - low) / 4.0);
+    // At most five or so: the step follows the range.
+    #[expect(clippy::cast_possible_truncation)]
+    let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
+    (first..=last).take(12).map(|line| GridMark { value: line as f64 * step, step_size: step }).collect()
+}
+
+/// A study's progress, and what there is to see of it.
+fn study<'a>(ui: &mut Ui, topic: Topic, studies: &'a Studies, commands: &mut Vec<Command>) -> Option<Shown<'a>> {
+    let shown = studies.shown(topic).filter(|shown| shown.known.answered() > 0);
+    // Always there, so that nothing jumps when a study begins and ends.
+    ui.horizontal(|ui| {
+        ui.set_min_height(ui.spacing().interact_size.y);
+        match (studies.progress(topic).stage, shown) {
+            (Stage::Finished, _) => {
+                ui.weak("Up to date with the robot");
+            }
+            (_, Some(Shown { current: false, .. })) => {
+                canvas::map::progress(ui, topic, studies, commands);
+                ui.weak("Earlier state").on_hover_text(STALE);
+            }
+            _ => canvas::map::progress(ui, topic, studies, commands),
+        }
+    });
+    shown
 }

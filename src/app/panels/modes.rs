@@ -3,7 +3,7 @@
 use eframe::egui::{Label, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 
-use super::{STALE, near};
+use super::{STALE, explain, near};
 use crate::app::answers::Answers;
 use crate::app::state::Command;
 use crate::compute::protocol::ModeChoice;
@@ -19,6 +19,11 @@ pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec
     } else {
         STALE
     });
+    explain(
+        ui,
+        "Every row is a way in which the robot vibrates at today's speed: how often it swings (Hz), how fast it grows \
+         or dies away (1/s), its damping ratio ζ, and the cable that moves most. Click one to see it move.",
+    );
     let chosen = answers.shape().filter(|shape| !shape.is_critical).map(|shape| shape.eigenvalue);
     let height = ui.available_height().max(220.0);
     TableBuilder::new(ui)

@@ -2,25 +2,51 @@
 
 use eframe::egui::{Slider, Ui};
 
-use super::{eigenvalues, growth, modes};
+use super::{campbell, directions, eigenvalues, growth, line, mesh, modes};
 use crate::app::answers::Answers;
 use crate::app::state::{Command, Document, Playback, Plot, UiState};
+use crate::app::studies::Studies;
 use crate::compute::protocol::{ModeChoice, Which};
 use crate::robot::Linearisation;
 
+/// All plots with their names.
+const TABS: [(Plot, &str); 7] = [
+    (Plot::Eigenvalues, "Eigenvalues"),
+    (Plot::Growth, "Growth rate"),
+    (Plot::Modes, "Modes"),
+    (Plot::Line, "Along the line"),
+    (Plot::Directions, "Directions"),
+    (Plot::Campbell, "Campbell"),
+    (Plot::Mesh, "Mesh"),
+];
+
 /// Draws the tabs, the open plot and the playback.
-pub fn ui(state: &mut UiState, ui: &mut Ui, document: &Document, answers: &Answers, commands: &mut Vec<Command>) {
+pub fn ui(
+    joined: &mut campbell::Modes,
+    state: &mut UiState,
+    ui: &mut Ui,
+    document: &Document,
+    answers: &Answers,
+    studies: &Studies,
+    commands: &mut Vec<Command>,
+) {
     playback(&mut state.playback, ui, document, answers, state.mode, commands);
     ui.separator();
     ui.horizontal_wrapped(|ui| {
-        ui.selectable_value(&mut state.plot, Plot::Eigenvalues, "Eigenvalues");
-        ui.selectable_value(&mut state.plot, Plot::Growth, "Growth rate");
-        ui.selectable_value(&mut state.plot, Plot::Modes, "Modes");
+        for (plot, name) in TABS {
+            ui.selectable_value(&mut state.plot, plot, name);
+        }
     });
     match state.plot {
         Plot::Eigenvalues => eigenvalues::ui(ui, answers, state.mode, commands),
         Plot::Growth => growth::ui(ui, document, answers),
         Plot::Modes => modes::ui(ui, answers, state.mode, commands),
+        Plot::Line => line::ui(ui, document, studies, commands),
+        Plot::Directions => directions::ui(ui, document, studies, commands),
+        Plot::Campbell => {
+            campbell::ui(joined, &mut state.campbell_hz, ui, document, answers, studies, commands);
+        }
+        Plot::Mesh => mesh::ui(ui, document, studies, commands),
     }
 }
 

@@ -1,0 +1,251 @@
+//! The map under the robot: its controls, its picture, what it says under the pointer, and a click that moves the
+//! platform.
+
+mod paint;
+mod picture;
+
+use eframe::egui::{
+    Align, ComboBox, Label, Layout, Painter, PopupAnchor, ProgressBar, Rect, Response, Tooltip, Ui, UiBuilder, Vec2,
+    WidgetInfo,
+};
+
+pub use picture::Picture;
+
+use super::View;
+use super::handles::roundest;
+use crate::app::series;
+use crate::app::state::{Camera, Command, Document, MapQuantity, MapView, UiState};
+use crate::app::studies::{Known, Shown, Stage, Studies};
+use crate::compute::protocol::{
+    AskedChoice, DirectionsChoice, PlaceAnswer, Revision, StudyChoice, Topic, VerdictAnswer,
+};
+use crate::robot::Vec2 as WorldVec2;
+use crate::scenario::report::KindReport;
+use paint::Texture;
+
+/// While answers come in, the picture is made anew this often, in seconds.
+const RENEWAL: f64 = 0.1;
+
+/// All quantities with their names.
+const QUANTITIES: [(MapQuantity, &str, &str); 5] = [
+    (MapQuantity::Speed, "Critical speed", "The first speed at which a vibration grows, in m/s"),
+    (MapQuantity::Frequency, "Frequency", "The frequency of the vibration that grows first, in Hz; 0 for divergence"),
+    (MapQuantity::Kind, "Kind", "Flutter (a vibration grows) or divergence (a cable bows out)"),
+    (MapQuantity::Cable, "Cable", "The cable with most of the kinetic energy of the vibration that grows first"),
+    (MapQuantity::Growth, "Growth rate", "The largest growth rate at today's speed, in 1/s; above 0 it is unstable"),
+];
+
+/// What the picture was made of.
+type Key = ((Revision, usize), MapQuantity, bool);
+
+/// The picture on show, made anew only when something of it changes.
+#[derive(Default)]
+pub struct Layer {
+    key: Option<Key>,
+    made_at: f64,
+    current: bool,
+    picture: Option<Picture>,
+    texture: Texture,
+}
+
+impl Layer {
+    /// Makes the picture anew where there are other answers, another quantity or other colours.
+    pub fn update(&mut self, ui: &Ui, studies: &Studies, view: MapView) {
+        let Some(Shown { known, current }) = studies.shown(Topic::Map).filter(|_| view.on) else {
+            (self.key, self.picture) = (None, None);
+            return;
+        };
+        // The study of another quantity may still be the one on show.
+        let quantity = match (asks_growth(known), view.quantity) {
+            (true, _) => MapQuantity::Growth,
+            (false, MapQuantity::Growth) => MapQuantity::Speed,
+            (false, quantity) => quantity,
+        };
+        self.current = current;
+        let key = (known.version, quantity, ui.visuals().dark_mode);
+        if self.key == Some(key) {
+            return;
+        }
+        let now = ui.input(|input| input.time);
+        let more_to_come = studies.progress(Topic::Map).stage == Stage::Working;
+        let same_look = self.key.is_some_and(|(_, quantity, dark)| (quantity, dark) == (key.1, key.2));
+        if more_to_come && same_look && now < self.made_at + RENEWAL {
+            ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(RENEWAL));
+            return;
+        }
+        (self.key, self.made_at) = (Some(key), now);
+        self.picture = Picture::new(known, quantity);
+        if let Some(picture) = &self.picture {
+            self.texture.make(ui, picture);
+        }
+    }
+
+    /// Draws the picture.
+    pub fn paint(&self, painter: &Painter, ui: &Ui, view: &View) {
+        if let Some(picture) = &self.picture {
+            self.texture.paint(painter, view, picture, self.current);
+            paint::patterns(painter, ui.visuals(), view, picture);
+        }
+    }
+
+    /// Draws what the colours and patterns mean, in the canvas's lower left corner.
+    pub fn legend(&self, painter: &Painter, ui: &Ui, rect: Rect, speed: f64) {
+        if let Some(picture) = &self.picture {
+            paint::legend(painter, ui.visuals(), rect, picture, self.current, speed);
+        }
+    }
+}
+
+fn asks_growth(known: &Known) -> bool {
+    matches!(known.wish.study, StudyChoice::Map { asked: AskedChoice::Growth, .. })
+}
+
+/// Switch, quantity, direction and progress, in the canvas's upper right corner.
+pub fn controls(ui: &mut Ui, rect: Rect, state: &mut UiState, studies: &Studies, commands: &mut Vec<Command>) {
+    let room = Rect::from_min_max(rect.min + Vec2::new(8.0, 6.0), rect.max - Vec2::new(8.0, 6.0));
+    let layout = Layout::top_down(Align::Max);
+    ui.scope_builder(UiBuilder::new().max_rect(room).layout(layout), |ui| {
+        ui.allocate_ui_with_layout(Vec2::new(room.width(), 20.0), Layout::right_to_left(Align::Center), |ui| {
+            let text = "Colours the workspace under the robot, point by point. A click on it moves the platform.";
+            ui.toggle_value(&mut state.map.on, "Map").on_hover_text(text);
+            if state.map.on {
+                choices(ui, &mut state.map);
+            }
+            if state.camera != Camera::default() && ui.button("Show all").clicked() {
+                state.camera = Camera::default();
+            }
+        });
+        if state.map.on {
+            let row = Vec2::new(room.width(), 20.0);
+            ui.allocate_ui_with_layout(row, Layout::right_to_left(Align::Center), |ui| {
+                progress(ui, Topic::Map, studies, commands);
+            });
+        }
+    });
+}
+
+fn choices(ui: &mut Ui, map: &mut MapView) {
+    let name = |worst| if worst { "Worst direction" } else { "Motion's direction" };
+    let list = ComboBox::from_id_salt("map direction").width(126.0).selected_text(name(map.worst));
+    let list = list.show_ui(ui, |ui| {
+        let text = "Every point is passed in the motion's direction.";
+        ui.selectable_value(&mut map.worst, false, name(false)).on_hover_text(text);
+        let text = "At every point the worst of 16 directions counts. This takes longer.";
+        ui.selectable_value(&mut map.worst, true, name(true)).on_hover_text(text);
+    });
+    named(&list.response, "Map direction", name(map.worst));
+    let title = |quantity| QUANTITIES.iter().find(|(other, ..)| *other == quantity).map_or("", |(_, name, _)| name);
+    let list = ComboBox::from_id_salt("map quantity").width(104.0).selected_text(title(map.quantity));
+    let list = list.show_ui(ui, |ui| {
+        for (quantity, name, text) in QUANTITIES {
+            ui.selectable_value(&mut map.quantity, quantity, name).on_hover_text(text);
+        }
+    });
+    named(&list.response, "Map quantity", title(map.quantity));
+}
+
+/// A list's name for those who do not see it.
+fn named(list: &Response, name: &'static str, value: &'static str) {
+    list.widget_info(|| WidgetInfo {
+        label: Some(name.into()),
+        current_text_value: Some(value.into()),
+        ..WidgetInfo::new(eframe::egui::Role::ComboBox)
+    });
+}
+
+/// How far a study has come, with a button that stops it or goes on; nothing where all is known.
+pub fn progress(ui: &mut Ui, topic: Topic, studies: &Studies, commands: &mut Vec<Command>) {
+    let progress = studies.progress(topic);
+    #[expect(clippy::cast_possible_truncation)] // A part of one.
+    let part = (progress.done as f64 / progress.total.max(1) as f64) as f32;
+    match progress.stage {
+        Stage::Working => {
+            if ui.button("Cancel").on_hover_text("Stops this study; what is known of it stays").clicked() {
+                commands.push(Command::StopStudy(topic));
+            }
+            let text = format!("{} of {}", progress.done, progress.total);
+            let response = ui.add(ProgressBar::new(part).desired_width(120.0).text(text));
+            response.on_hover_text("Points computed so far");
+        }
+        Stage::Stopped => {
+            if ui.button("Resume").clicked() {
+                commands.push(Command::ResumeStudy(topic));
+            }
+            ui.weak("Stopped");
+        }
+        Stage::Failed => {
+            if ui.button("Try again").clicked() {
+                commands.push(Command::ResumeStudy(topic));
+            }
+            ui.weak(studies.broken().unwrap_or("This could not be computed."));
+        }
+        Stage::Idle | Stage::Finished => {}
+    }
+}
+
+/// Says what is known at the map's point nearest to the pointer, marks it, and moves the platform on a click.
+pub fn point(
+    ui: &Ui,
+    painter: &Painter,
+    background: &Response,
+    view: &View,
+    document: &Document,
+    studies: &Studies,
+    commands: &mut Vec<Command>,
+) {
+    let Some(Shown { known, current }) = studies.shown(Topic::Map) else { return };
+    let Some(grid) = known.wish.grid() else { return };
+    let pointer = background.hover_pos().filter(|_| background.hovered() && !background.dragged());
+    if let Some(pointer) = pointer
+        && let Some(nearest) = picture::nearest(&grid, view.pos_in_world(pointer).into())
+    {
+        let at = grid.position(nearest);
+        painter.circle_stroke(view.pos_in_ui(at.into()), 4.0, (1.5, ui.visuals().strong_text_color()));
+        let mut text = reading(known, nearest, at);
+        if !current {
+            text.push_str("\nOf an earlier state, being recomputed");
+        }
+        let id = background.id.with("reading");
+        Tooltip::always_open(ui.ctx().clone(), ui.layer_id(), id, PopupAnchor::Pointer).gap(14.0).show(|ui| {
+            ui.add(Label::new(text).extend());
+        });
+    }
+    let clicked = background.interact_pointer_pos().filter(|_| background.clicked());
+    if let Some(clicked) = clicked {
+        let to = view.pos_in_world(clicked);
+        if picture::nearest(&grid, to.into()).is_some() {
+            let mut scenario = document.scenario.clone();
+            scenario.motion.position = to.map(|coordinate| roundest(coordinate, 1.0 / view.scale));
+            commands.push(Command::Edit(Box::new(scenario)));
+        }
+    }
+}
+
+/// What is known at one of a map's points, in words.
+fn reading(known: &Known, index: usize, at: WorldVec2) -> String {
+    let place = format!("At ({:.2}, {:.2}) m", at.x, at.y);
+    let said = match known.places.get(index).and_then(Option::as_ref) {
+        None => "not computed yet".into(),
+        Some(PlaceAnswer::Growth(Some(rate))) => format!("growth rate {rate:.4} 1/s"),
+        Some(PlaceAnswer::Growth(None) | PlaceAnswer::Spectrum(_)) => "no equilibrium, or no eigenvalues".into(),
+        Some(PlaceAnswer::Critical { direction, verdict }) => match verdict {
+            VerdictAnswer::Infeasible => "no equilibrium".into(),
+            VerdictAnswer::NotConverged => "could not be computed".into(),
+            VerdictAnswer::NoneUpTo(speed) => format!("no critical speed up to {speed:.0} m/s"),
+            VerdictAnswer::Critical(critical) => {
+                let kind = match critical.kind {
+                    KindReport::Flutter => format!("flutter at {:.4} Hz", critical.frequency_hz),
+                    KindReport::Divergence => "divergence".into(),
+                };
+                let worst = match known.wish.study {
+                    StudyChoice::Map { directions: DirectionsChoice::Worst, .. } => {
+                        format!("\nin the direction {:.1}°", series::degrees(*direction))
+                    }
+                    _ => String::new(),
+                };
+                format!("critical speed {:.4} m/s{worst}\n{kind}, cable {}", critical.speed, critical.cable)
+            }
+        },
+    };
+    format!("{place}:\n{said}")
+}

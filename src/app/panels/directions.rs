@@ -1,0 +1,130 @@
+//! The critical speed in every direction, as a polar diagram.
+
+use std::f64::consts::TAU;
+
+use eframe::egui::{Align2, RichText, Ui, Visuals};
+use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text};
+
+use super::{explain, study};
+use crate::app::series::{self, degrees};
+use crate::app::state::{Command, Document};
+use crate::app::studies::{Known, Shown, Studies};
+use crate::app::theme;
+use crate::compute::protocol::{Topic, VerdictAnswer};
+
+/// Draws the diagram and what follows from it.
+pub fn ui(ui: &mut Ui, document: &Document, studies: &Studies, commands: &mut Vec<Command>) {
+    let Some(Shown { known, current }) = study(ui, Topic::Polar, studies, commands) else { return };
+    explain(
+        ui,
+        "From the middle outward: the critical speed of a motion through this pose in that direction, right is to the \
+         right and up is up. Where the line comes near the middle, the platform must move slowly. A gap is a direction \
+         without a critical speed. The worst direction is also on the canvas, as a dashed arrow.",
+    );
+    let Some((worst, speed)) = series::worst_direction(known) else {
+        let none = known.places.iter().flatten().next().is_some();
+        ui.weak(if none { "No critical speed in any direction at this pose." } else { "No answer yet." });
+        return;
+    };
+    let all = if known.is_complete() { "" } else { " so far" };
+    ui.label(format!("Worst direction{all}: {:.0}°, critical at {speed:.4} m/s", degrees(worst)));
+    let button = ui.button("Move in the worst direction");
+    if button.on_hover_text("Sets the direction of the motion").clicked() {
+        let mut scenario = document.scenario.clone();
+        scenario.motion.direction = worst;
+        commands.push(Command::Edit(Box::new(scenario)));
+    }
+    let size = ui.available_height().min(ui.available_width()).max(240.0);
+    let plot = Plot::new("directions")
+        .height(size)
+        .data_aspect(1.0)
+        .show_axes(false)
+        .show_grid(false)
+        .show_x(false)
+        .show_y(false)
+        .allow_scroll(false)
+        .set_margin_fraction(eframe::egui::Vec2::splat(0.12))
+        .label_formatter(|hover| {
+            let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
+                hover;
+            let angle = degrees([point.x, point.y]);
+            Some(format!("{angle:.0}°\n{:.4} m/s", point.x.hypot(point.y)))
+        });
+    let visuals = ui.visuals().clone();
+    let today = document.scenario.motion.direction;
+    plot.show(ui, |plot| draw(plot, &visuals, known, current, today, (worst, speed)));
+}
+
+fn draw(
+    plot: &mut PlotUi<'_>,
+    visuals: &Visuals,
+    known: &Known,
+    current: bool,
+    today: [f64; 2],
+    (worst, speed): ([f64; 2], f64),
+) {
+    let directions = series::directions(known);
+    let radius = |verdict: Option<&VerdictAnswer>| match verdict {
+        Some(VerdictAnswer::Critical(critical)) => Some(critical.speed),
+        _ => None,
+    };
+    let largest = directions.iter().filter_map(|(_, verdict)| radius(*verdict)).fold(1e-3, f64::max);
+    rings(plot, visuals, largest);
+    let at = |[x, y]: [f64; 2], radius: f64| [radius * x, radius * y];
+    let colour = if current { theme::calm(visuals) } else { visuals.weak_text_color() };
+    // Once around and back to the first direction; gaps stay gaps.
+    let mut stretch = Vec::new();
+    for (direction, verdict) in directions.iter().chain(directions.first()) {
+        match radius(*verdict) {
+            Some(radius) => stretch.push(at(*direction, radius)),
+            // Not known yet is not a gap.
+            None if verdict.is_none() => {}
+            None => {
+                let line = PlotPoints::from(std::mem::take(&mut stretch));
+                plot.line(Line::new("", line).color(colour).width(2.0));
+            }
+        }
+    }
+    plot.line(Line::new("", PlotPoints::from(stretch)).color(colour).width(2.0));
+
+    let accent = theme::accent(visuals);
+    let length = today[0].hypot(today[1]);
+    let today = [today[0] / length, today[1] / length];
+    let spoke = PlotPoints::from(vec![[0.0, 0.0], at(today, 1.12 * largest)]);
+    let spoke = Line::new("", spoke).color(accent).width(2.0).style(LineStyle::dashed_loose());
+    plot.line(spoke.allow_hover(false));
+    label(plot, at(today, 1.2 * largest), RichText::new("today").size(12.0).color(accent));
+    let warning = theme::warning(visuals);
+    plot.points(Points::new("", vec![at(worst, speed)]).shape(MarkerShape::Down).radius(8.0).color(warning));
+}
+
+/// Circles of equal speed and spokes every 30°.
+fn rings(plot: &mut PlotUi<'_>, visuals: &Visuals, largest: f64) {
+    let faint = visuals.weak_text_color().gamma_multiply(0.4);
+    let ring =
+        |points: Vec<[f64; 2]>| Line::new("", PlotPoints::from(points)).color(faint).width(1.0).allow_hover(false);
+    for spoke in 0..12 {
+        let (sine, cosine) = (TAU * f64::from(spoke) / 12.0).sin_cos();
+        plot.line(ring(vec![[0.0, 0.0], [1.1 * largest * cosine, 1.1 * largest * sine]]));
+    }
+    let step = crate::app::canvas::grid_step(largest / 4.0);
+    for i in 1..=5_u8 {
+        let radius = f64::from(i) * step;
+        if radius > 1.1 * largest {
+            break;
+        }
+        let point = |k: u8| {
+            let (sine, cosine) = (TAU * f64::from(k) / 90.0).sin_cos();
+            [radius * cosine, radius * sine]
+        };
+        plot.line(ring((0..=90).map(point).collect()));
+        // Between two spokes, where directions of interest are rare.
+        let (sine, cosine) = (TAU * 7.0 / 24.0).sin_cos();
+        let text = RichText::new(format!("{radius} m/s")).size(11.0).color(visuals.weak_text_color());
+        label(plot, [radius * cosine, radius * sine], text);
+    }
+}
+
+fn label(plot: &mut PlotUi<'_>, at: [f64; 2], text: RichText) {
+    plot.text(Text::new("", PlotPoint::new(at[0], at[1]), text).anchor(Align2::CENTER_CENTER).allow_hover(false));
+}

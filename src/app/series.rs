@@ -1,0 +1,379 @@
+//! What the plots of studies show, without colours: answers by place turned into points and sentences.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Complex;
+
+use crate::app::studies::Known;
+use crate::compute::protocol::{PlaceAnswer, StudyChoice, VerdictAnswer};
+use crate::scenario::report::{CriticalReport, KindReport, sentence};
+use crate::stability::{Critical, Kind};
+use crate::study::campbell::{self, Track};
+use crate::study::convergence::{self, Convergence};
+use crate::study::{Verdict, compass, evenly};
+
+/// How a line's places are measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Abscissa {
+    /// The motion is horizontal: x.
+    X,
+    /// It is vertical: y.
+    Y,
+    /// The way along the line from where it enters the workspace.
+    Along,
+}
+
+impl Abscissa {
+    /// The axis's label.
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::X => "x (m)",
+            Self::Y => "y (m)",
+            Self::Along => "Way along the line (m)",
+        }
+    }
+
+    /// A place in words.
+    pub fn place(self, at: f64) -> String {
+        match self {
+            Self::X => format!("x = {at:.1} m"),
+            Self::Y => format!("y = {at:.1} m"),
+            Self::Along => format!("{at:.1} m"),
+        }
+    }
+}
+
+/// Critical speeds along a line.
+#[derive(Clone, Debug)]
+pub struct Along {
+    /// How places are measured.
+    pub abscissa: Abscissa,
+    /// Place in m and what is known there, from left to right.
+    pub points: Vec<(f64, VerdictAnswer)>,
+    /// The whole line, in m.
+    pub range: [f64; 2],
+    from: [f64; 2],
+    direction: [f64; 2],
+}
+
+impl Along {
+    /// Those of `known`, where it is a line.
+    pub fn new(known: &Known) -> Option<Self> {
+        let line = known.wish.line()?;
+        let direction: [f64; 2] = line.direction.into();
+        let abscissa = match direction {
+            [_, 0.0] => Abscissa::X,
+            [0.0, _] => Abscissa::Y,
+            _ => Abscissa::Along,
+        };
+        let mut along = Self { abscissa, points: Vec::new(), range: [0.0, 0.0], from: line.from.into(), direction };
+        let ends = [line.from, line.to].map(|end| along.place(end.into()));
+        along.range = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        for (index, answer) in known.places.iter().enumerate() {
+            if let Some(PlaceAnswer::Critical { verdict, .. }) = answer {
+                along.points.push((along.place(line.position(index).into()), verdict.clone()));
+            }
+        }
+        along.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Some(along)
+    }
+
+    /// Where a pose is on the line, in m.
+    pub fn place(&self, position: [f64; 2]) -> f64 {
+        match self.abscissa {
+            Abscissa::X => position[0],
+            Abscissa::Y => position[1],
+            Abscissa::Along => {
+                (position[0] - self.from[0]) * self.direction[0] + (position[1] - self.from[1]) * self.direction[1]
+            }
+        }
+    }
+
+    /// Stretches with a critical speed, as points (m, `value`). A change of cable is no gap; anything else is.
+    pub fn stretches(&self, value: impl Fn(&CriticalReport) -> f64) -> Vec<Vec<[f64; 2]>> {
+        let mut stretches = vec![Vec::new()];
+        for (at, verdict) in &self.points {
+            match (verdict, stretches.last_mut()) {
+                (VerdictAnswer::Critical(critical), Some(last)) => last.push([*at, value(critical)]),
+                _ => stretches.push(Vec::new()),
+            }
+        }
+        stretches.retain(|stretch| !stretch.is_empty());
+        stretches
+    }
+
+    /// Stretches without an equilibrium, from half-way to the neighbour on either side.
+    pub fn infeasible(&self) -> Vec<[f64; 2]> {
+        let mut stretches: Vec<[f64; 2]> = Vec::new();
+        let [low, high] = self.range;
+        for (i, (at, verdict)) in self.points.iter().enumerate() {
+            if *verdict != VerdictAnswer::Infeasible {
+                continue;
+            }
+            let left = if i == 0 { low } else { 0.5 * (self.points[i - 1].0 + at) };
+            let right = self.points.get(i + 1).map_or(high, |next| 0.5 * (at + next.0));
+            match stretches.last_mut().filter(|last| left - last[1] <= 1e-9 * (high - low)) {
+                Some(last) => last[1] = right,
+                None => stretches.push([left, right]),
+            }
+        }
+        stretches
+    }
+
+    /// The paper's two findings, each where it holds: toward the border the critical speed falls and the frequency
+    /// rises. Compared are the outer parts of the longest stretch with its middle.
+    pub fn findings(&self) -> Option<String> {
+        let longest = |value: fn(&CriticalReport) -> f64| {
+            self.stretches(value).into_iter().max_by_key(Vec::len).filter(|stretch| stretch.len() >= 9)
+        };
+        let (speeds, frequencies) = (longest(|c| c.speed)?, longest(|c| c.frequency_hz)?);
+        let falls = ends(&speeds, |end, middle| end < 0.95 * middle);
+        let rises = ends(&frequencies, |end, middle| end > 1.05 * middle);
+        let [left, right] = [speeds[0][0], speeds[speeds.len() - 1][0]].map(|at| self.abscissa.place(at));
+        let toward = |at: [bool; 2]| match at {
+            [true, true] => Some(format!("toward both ends of the taut stretch ({left} and {right})")),
+            [true, false] => Some(format!("toward {left}")),
+            [false, true] => Some(format!("toward {right}")),
+            [false, false] => None,
+        };
+        let text = match (toward(falls), toward(rises)) {
+            (Some(falls), Some(rises)) if falls == rises => {
+                format!("{falls} the critical speed falls and the frequency rises, as the paper found")
+            }
+            (Some(falls), Some(rises)) => {
+                format!("the critical speed falls {falls}, and the frequency rises {rises}, as the paper found")
+            }
+            (Some(falls), None) => format!("{falls} the critical speed falls, as the paper found"),
+            (None, Some(rises)) => format!("{rises} the frequency rises, as the paper found"),
+            (None, None) => return None,
+        };
+        Some(sentence(&text))
+    }
+}
+
+/// For the left and the right end of a stretch, whether it `holds` of the mean of the last sixth and that of the middle
+/// third. A single point says little: at the very border another mode may come first.
+fn ends(stretch: &[[f64; 2]], holds: impl Fn(f64, f64) -> bool) -> [bool; 2] {
+    let mean = |points: &[[f64; 2]]| points.iter().map(|point| point[1]).sum::<f64>() / points.len() as f64;
+    let (count, third, sixth) = (stretch.len(), stretch.len() / 3, (stretch.len() / 6).max(1));
+    let middle = mean(&stretch[third..count - third]);
+    [holds(mean(&stretch[..sixth]), middle), holds(mean(&stretch[count - sixth..]), middle)]
+}
+
+/// The directions of a polar diagram: the unit vector and what is known, counterclockwise.
+pub fn directions<'a>(known: &'a Known) -> Vec<([f64; 2], Option<&'a VerdictAnswer>)> {
+    let StudyChoice::Polar { count, .. } = known.wish.study else { return Vec::new() };
+    let place = |(i, answer): (usize, &'a Option<PlaceAnswer>)| match answer {
+        Some(PlaceAnswer::Critical { verdict, .. }) => (compass(i, count).into(), Some(verdict)),
+        _ => (compass(i, count).into(), None),
+    };
+    known.places.iter().enumerate().map(place).collect()
+}
+
+/// The direction with the lowest critical speed, and that speed in m/s.
+pub fn worst_direction(known: &Known) -> Option<([f64; 2], f64)> {
+    let speed = |(direction, verdict): ([f64; 2], Option<&VerdictAnswer>)| match verdict {
+        Some(VerdictAnswer::Critical(critical)) => Some((direction, critical.speed)),
+        _ => None,
+    };
+    directions(known).into_iter().filter_map(speed).min_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// The angle of a direction in degrees, from −180 to 180.
+pub fn degrees([x, y]: [f64; 2]) -> f64 {
+    y.atan2(x).to_degrees()
+}
+
+/// The modes of a Campbell diagram up to `highest` Hz. Speeds that are not answered yet are left out.
+pub fn tracks(known: &Known, highest: f64) -> Vec<Track> {
+    let StudyChoice::Campbell { to, count } = known.wish.study else { return Vec::new() };
+    // Somewhat more than is drawn, so that modes do not end below the edge; all of them would take long to join.
+    let drawn = |value: &[f64; 2]| value[1] <= 1.5 * highest * TAU;
+    let spectra: Vec<(f64, Vec<Complex<f64>>)> = known
+        .places
+        .iter()
+        .enumerate()
+        .filter_map(|(i, answer)| match answer {
+            Some(PlaceAnswer::Spectrum(Some(values))) => {
+                let values = values.iter().filter(|value| drawn(value)).map(|&[re, im]| Complex::new(re, im));
+                Some((evenly(0.0, to, i, count), values.collect()))
+            }
+            _ => None,
+        })
+        .collect();
+    campbell::track(&spectra)
+}
+
+/// A part of a mode's line on which it is stable throughout, or unstable throughout.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// Whether it grows.
+    pub unstable: bool,
+    /// Speed in m/s and eigenvalue in 1/s.
+    pub points: Vec<(f64, Complex<f64>)>,
+}
+
+/// The pieces of a mode's line; where stability changes, they share the point at which the growth rate passes zero.
+pub fn pieces(track: &Track) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    for &(speed, eigenvalue) in &track.points {
+        let unstable = eigenvalue.re > 0.0;
+        let mut points = vec![(speed, eigenvalue)];
+        if let Some(last) = pieces.last_mut() {
+            if last.unstable == unstable {
+                last.points.append(&mut points);
+                continue;
+            }
+            if let Some(&(before, from)) = last.points.last() {
+                let part = (from.re / (from.re - eigenvalue.re)).clamp(0.0, 1.0);
+                let crossing = (before + part * (speed - before), from + (eigenvalue - from) * part);
+                last.points.push(crossing);
+                points.insert(0, crossing);
+            }
+        }
+        pieces.push(Piece { unstable, points });
+    }
+    pieces
+}
+
+/// The critical speed on several meshes.
+#[derive(Clone, Debug)]
+pub struct Meshes {
+    /// Elements per cable and what is known, from the coarsest on.
+    pub points: Vec<(usize, VerdictAnswer)>,
+    /// What they say about ever finer meshes.
+    pub limit: Convergence,
+}
+
+impl Meshes {
+    /// Those of `known`, where it is about meshes, with `today` elements per cable.
+    pub fn new(known: &Known, today: usize) -> Option<Self> {
+        let StudyChoice::Convergence { counts, .. } = &known.wish.study else { return None };
+        let verdict = |(n, answer): (&usize, &Option<PlaceAnswer>)| match answer {
+            Some(PlaceAnswer::Critical { verdict, .. }) => Some((*n, verdict.clone())),
+            _ => None,
+        };
+        let points: Vec<(usize, VerdictAnswer)> = counts.iter().zip(&known.places).filter_map(verdict).collect();
+        let verdicts: Vec<(usize, Verdict)> = points.iter().map(|(n, answer)| (*n, plain(answer))).collect();
+        Some(Self { limit: convergence::richardson(&verdicts, today), points })
+    }
+
+    /// Elements per cable and critical speed in m/s, where there is one.
+    pub fn speeds(&self) -> Vec<[f64; 2]> {
+        let speed = |(n, verdict): &(usize, VerdictAnswer)| match verdict {
+            VerdictAnswer::Critical(critical) => Some([*n as f64, critical.speed]),
+            _ => None,
+        };
+        self.points.iter().filter_map(speed).collect()
+    }
+}
+
+fn plain(verdict: &VerdictAnswer) -> Verdict {
+    match verdict {
+        VerdictAnswer::Infeasible => Verdict::Infeasible,
+        VerdictAnswer::NotConverged => Verdict::NotConverged,
+        VerdictAnswer::NoneUpTo(speed) => Verdict::NoneUpTo(*speed),
+        VerdictAnswer::Critical(critical) => Verdict::Critical(Critical {
+            speed: critical.speed,
+            eigenvalue: Complex::new(0.0, critical.frequency_hz * TAU),
+            kind: match critical.kind {
+                KindReport::Flutter => Kind::Flutter,
+                KindReport::Divergence => Kind::Divergence,
+            },
+            cable: critical.cable.saturating_sub(1),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    // Places and answers compared are copied, not computed.
+    #![expect(clippy::float_cmp)]
+
+    use super::*;
+    use crate::app::studies::Wish;
+    use crate::scenario::presets;
+
+    fn critical(speed: f64, frequency_hz: f64) -> PlaceAnswer {
+        let critical = CriticalReport { speed, frequency_hz, kind: KindReport::Flutter, cable: 4 };
+        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Critical(critical) }
+    }
+
+    fn nothing() -> PlaceAnswer {
+        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Infeasible }
+    }
+
+    fn known(study: StudyChoice, direction: [f64; 2], answer: impl Fn(usize) -> Option<PlaceAnswer>) -> Known {
+        let mut scenario = presets::PRESETS[0].scenario();
+        scenario.motion.direction = direction;
+        let wish = Wish::new(&scenario, study);
+        Known { places: (0..wish.places()).map(answer).collect(), wish, version: (1, 0) }
+    }
+
+    #[test]
+    fn a_line_is_told_with_its_gaps_and_its_findings() {
+        let study = StudyChoice::Line { points: 21, max_speed: 40.0 };
+        let answer = |i: usize| {
+            let far = (i as f64 - 10.0).abs();
+            Some(if far > 7.0 { nothing() } else { critical(11.0 - 0.1 * far * far, 0.3 + 0.1 * far) })
+        };
+        let along = Along::new(&known(study.clone(), [1.0, 0.0], answer)).expect("a line");
+        assert_eq!((along.abscissa, along.range, along.place([3.0, 0.0])), (Abscissa::X, [-10.0, 10.0], 3.0));
+        assert_eq!(along.infeasible(), [[-10.0, -7.5], [7.5, 10.0]]);
+        let stretches = along.stretches(|c| c.speed);
+        assert_eq!((stretches.len(), stretches[0].len(), stretches[0][0][0]), (1, 15, -7.0));
+        let text = along.findings().expect("findings");
+        assert!(text.starts_with("Toward both ends of the taut stretch (x = -7.0 m and x = 7.0 m)"), "{text}");
+        assert!(text.ends_with("the critical speed falls and the frequency rises, as the paper found."), "{text}");
+
+        // The other way round the places run from right to left; flat lines say nothing.
+        let back = Along::new(&known(study.clone(), [-1.0, 0.0], |i| (i > 2).then(|| critical(9.0, 1.0))));
+        let back = back.expect("a line");
+        assert_eq!((back.points.len(), back.points[17].0, back.findings()), (18, 7.0, None));
+        // Across, the way begins where the line enters.
+        let across = Along::new(&known(study, [1.0, 1.0], |_| Some(nothing()))).expect("a line");
+        assert_eq!(across.abscissa, Abscissa::Along);
+        assert!((across.place([0.0, 0.0]) - 50.0_f64.sqrt()).abs() < 1e-9);
+        assert_eq!(across.infeasible(), [across.range]);
+    }
+
+    #[test]
+    fn the_worst_direction_is_the_lowest() {
+        let study = StudyChoice::Polar { count: 8, max_speed: 40.0 };
+        let known = known(study, [1.0, 0.0], |i| match i {
+            0 => None,
+            1 => Some(nothing()),
+            _ => Some(critical(20.0 - i as f64, 1.0)),
+        });
+        let (direction, speed) = worst_direction(&known).expect("a direction");
+        assert_eq!(speed, 13.0);
+        assert!((degrees(direction) + 45.0).abs() < 1e-12);
+        assert_eq!(directions(&known).iter().filter(|(_, verdict)| verdict.is_some()).count(), 7);
+    }
+
+    #[test]
+    fn modes_are_cut_where_they_become_unstable() {
+        let study = StudyChoice::Campbell { to: 4.0, count: 5 };
+        let answer = |i: usize| {
+            let re = i as f64 - 1.5;
+            (i != 2).then(|| PlaceAnswer::Spectrum(Some(vec![[re, 10.0], [-1.0, 1e4]])))
+        };
+        let tracks = tracks(&known(study, [1.0, 0.0], answer), 5.0);
+        assert_eq!(tracks.len(), 1, "what is far above the highest frequency is left out");
+        let at = |speed: f64| (speed, Complex::new(speed - 1.5, 10.0));
+        let [stable, unstable] = &pieces(&tracks[0])[..] else { panic!("two pieces") };
+        assert_eq!((stable.unstable, &stable.points[..]), (false, &[at(0.0), at(1.0), at(1.5)][..]));
+        assert_eq!((unstable.unstable, &unstable.points[..]), (true, &[at(1.5), at(3.0), at(4.0)][..]));
+    }
+
+    #[test]
+    fn meshes_lead_to_their_limit() {
+        let counts = vec![4, 10, 20, 40, 80];
+        let study = StudyChoice::Convergence { counts: counts.clone(), max_speed: 40.0 };
+        let answer = |i: usize| Some(critical(10.0 + 20.0 / (counts[i] * counts[i]) as f64, 1.0));
+        let meshes = Meshes::new(&known(study, [1.0, 0.0], answer), 10).expect("meshes");
+        assert_eq!(meshes.speeds().len(), 5);
+        let Convergence::Limit(limit) = meshes.limit else { panic!("{meshes:?}") };
+        assert!((limit.limit - 10.0).abs() < 1e-6 && (limit.error.unwrap_or(0.0) - 0.2).abs() < 1e-6, "{limit:?}");
+    }
+}

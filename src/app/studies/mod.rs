@@ -1,0 +1,333 @@
+//! Studies over many poses: which are wanted, what is known of them, how far they have come.
+//!
+//! Nothing here computes or waits: [`Studies::want`] says what the pool of workers is to be told, and
+//! [`Studies::take`] takes in what it has found. A study begins anew only where something has changed that it depends
+//! on ([`Wish`]). Until a first picture of the new one is there, the last one stays on show and is marked as old.
+
+mod wish;
+
+pub use wish::{Wish, wanted};
+
+use std::collections::VecDeque;
+
+use crate::compute::protocol::{PlaceAnswer, Revision, StudyJob, StudyNews, Topic};
+
+/// All topics.
+pub const TOPICS: [Topic; 5] = [Topic::Line, Topic::Map, Topic::Polar, Topic::Campbell, Topic::Convergence];
+/// So many finished studies of each topic are remembered, for undone changes and tabs that are opened again.
+const REMEMBERED: usize = 4;
+
+/// What the pool is to be told.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Order {
+    /// Begin this study in the place of its topic's.
+    Want(StudyJob),
+    /// End the topic's study.
+    Cancel(Topic),
+}
+
+/// How a topic's study stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Stage {
+    /// Nobody wants one.
+    #[default]
+    Idle,
+    /// It is being computed.
+    Working,
+    /// All is known.
+    Finished,
+    /// The user has stopped it.
+    Stopped,
+    /// It could not be done.
+    Failed,
+}
+
+/// What is known of one study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Known {
+    /// The study.
+    pub wish: Wish,
+    /// The answers by place.
+    pub places: Vec<Option<PlaceAnswer>>,
+    /// Changes with every answer, and is never the same for two studies.
+    pub version: (Revision, usize),
+}
+
+impl Known {
+    fn new(wish: Wish, revision: Revision) -> Self {
+        Self { places: vec![None; wish.places()], wish, version: (revision, 0) }
+    }
+
+    /// How many places are answered.
+    pub fn answered(&self) -> usize {
+        self.places.iter().flatten().count()
+    }
+
+    /// Whether all places are answered.
+    pub fn is_complete(&self) -> bool {
+        self.places.iter().all(Option::is_some)
+    }
+
+    fn is_picture(&self) -> bool {
+        self.answered() >= self.wish.first_picture()
+    }
+}
+
+/// What is on show of a topic.
+#[derive(Clone, Copy, Debug)]
+pub struct Shown<'a> {
+    /// The answers.
+    pub known: &'a Known,
+    /// Whether they belong to what is wanted now; else they are an earlier state's.
+    pub current: bool,
+}
+
+/// How far a topic's study has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Places answered since it began.
+    pub done: usize,
+    /// All places.
+    pub total: usize,
+    /// How it stands.
+    pub stage: Stage,
+    /// Which one it is.
+    pub revision: Revision,
+}
+
+#[derive(Debug, Default)]
+struct Subject {
+    stage: Stage,
+    revision: Revision,
+    done: usize,
+    newest: Option<Known>,
+    /// The last one of which a picture was there.
+    earlier: Option<Known>,
+    finished: VecDeque<Known>,
+}
+
+/// The studies of all topics.
+#[derive(Debug, Default)]
+pub struct Studies {
+    revision: Revision,
+    subjects: [Subject; TOPICS.len()],
+    broken: Option<String>,
+}
+
+fn place(topic: Topic) -> usize {
+    TOPICS.iter().position(|other| *other == topic).unwrap_or_default()
+}
+
+impl Studies {
+    /// Notes what is wanted now, at most one study of each topic, and says what is to be done for it.
+    pub fn want(&mut self, mut wishes: Vec<Wish>) -> Vec<Order> {
+        let mut orders = Vec::new();
+        for topic in TOPICS {
+            let wish = wishes.iter().position(|wish| wish.topic() == topic).map(|i| wishes.swap_remove(i));
+            let subject = &self.subjects[place(topic)];
+            let known = subject.newest.as_ref().map(|known| &known.wish);
+            match wish {
+                None if subject.stage == Stage::Working => {
+                    orders.push(Order::Cancel(topic));
+                    self.subjects[place(topic)].stage = Stage::Idle;
+                }
+                None => self.subjects[place(topic)].stage = Stage::Idle,
+                Some(wish) if known == Some(&wish) && subject.stage != Stage::Idle => {}
+                Some(wish) => orders.extend(self.begin(wish)),
+            }
+        }
+        orders
+    }
+
+    /// Begins `wish`, or remembers its answers.
+    fn begin(&mut self, wish: Wish) -> Option<Order> {
+        let topic = wish.topic();
+        let subject = &mut self.subjects[place(topic)];
+        let working = subject.stage == Stage::Working;
+        let again = subject.newest.as_ref().is_some_and(|known| known.wish == wish);
+        if !again && let Some(known) = subject.newest.take().filter(Known::is_picture) {
+            subject.earlier = Some(known);
+        }
+        if let Some(known) = subject.finished.iter().find(|known| known.wish == wish) {
+            (subject.stage, subject.done) = (Stage::Finished, known.places.len());
+            subject.newest = Some(known.clone());
+            return working.then_some(Order::Cancel(topic));
+        }
+        self.revision += 1;
+        let revision = self.revision;
+        // An answer depends on the wish alone: what an earlier try has found stays.
+        let known = subject.newest.get_or_insert_with(|| Known::new(wish, revision));
+        (subject.stage, subject.revision, subject.done) = (Stage::Working, revision, 0);
+        Some(Order::Want(StudyJob {
+            revision,
+            scenario: known.wish.scenario.to_json(),
+            study: known.wish.study.clone(),
+        }))
+    }
+
+    /// Stops a topic's study; what is known of it stays on show.
+    pub fn stop(&mut self, topic: Topic) -> Option<Order> {
+        let subject = &mut self.subjects[place(topic)];
+        (subject.stage == Stage::Working).then(|| {
+            subject.stage = Stage::Stopped;
+            Order::Cancel(topic)
+        })
+    }
+
+    /// Begins a study anew that was stopped.
+    pub fn resume(&mut self, topic: Topic) -> Option<Order> {
+        let subject = &self.subjects[place(topic)];
+        let stopped = matches!(subject.stage, Stage::Stopped | Stage::Failed);
+        let wish = subject.newest.as_ref().filter(|_| stopped)?.wish.clone();
+        self.begin(wish)
+    }
+
+    /// Takes in what the pool has found. News of studies that are not wanted any more say nothing.
+    pub fn take(&mut self, news: StudyNews) {
+        match news {
+            StudyNews::Places { topic, revision, answers } => {
+                let Some(subject) = self.at_work(topic, revision) else { return };
+                let Some(known) = &mut subject.newest else { return };
+                subject.done += answers.len();
+                for (place, answer) in answers {
+                    if let Some(known) = known.places.get_mut(place) {
+                        *known = Some(answer);
+                    }
+                }
+                known.version = (revision, subject.done);
+            }
+            StudyNews::Finished { topic, revision } => {
+                let Some(subject) = self.at_work(topic, revision) else { return };
+                subject.stage = Stage::Finished;
+                subject.earlier = None;
+                if let Some(known) = subject.newest.clone().filter(Known::is_complete) {
+                    subject.finished.push_front(known);
+                    subject.finished.truncate(REMEMBERED);
+                }
+            }
+            StudyNews::Refused { topic, revision, .. } => {
+                if let Some(subject) = self.at_work(topic, revision) {
+                    subject.stage = Stage::Failed;
+                }
+            }
+            StudyNews::Broken(reason) => {
+                self.broken = Some(reason);
+                for subject in &mut self.subjects {
+                    if subject.stage == Stage::Working {
+                        subject.stage = Stage::Failed;
+                    }
+                }
+            }
+        }
+    }
+
+    fn at_work(&mut self, topic: Topic, revision: Revision) -> Option<&mut Subject> {
+        let subject = &mut self.subjects[place(topic)];
+        (subject.stage == Stage::Working && subject.revision == revision).then_some(subject)
+    }
+
+    /// What there is to see of a topic: the newest study once it makes a picture, until then the one before.
+    pub fn shown(&self, topic: Topic) -> Option<Shown<'_>> {
+        let Subject { newest, earlier, .. } = &self.subjects[place(topic)];
+        let newest = newest.as_ref();
+        if let Some(known) = earlier.as_ref().filter(|_| !newest.is_some_and(Known::is_picture)) {
+            return Some(Shown { known, current: false });
+        }
+        newest.map(|known| Shown { known, current: true })
+    }
+
+    /// How far a topic's study has come.
+    pub fn progress(&self, topic: Topic) -> Progress {
+        let Subject { stage, revision, done, newest, .. } = &self.subjects[place(topic)];
+        let total = newest.as_ref().map_or(0, |known| known.places.len());
+        Progress { done: *done, total, stage: *stage, revision: *revision }
+    }
+
+    /// Whether anything is being computed.
+    pub fn is_working(&self) -> bool {
+        self.subjects.iter().any(|subject| subject.stage == Stage::Working)
+    }
+
+    /// Why no study can be done, where none can.
+    pub fn broken(&self) -> Option<&str> {
+        self.broken.as_deref()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::protocol::StudyChoice;
+    use crate::scenario::presets;
+
+    fn wish(position: [f64; 2]) -> Wish {
+        let mut scenario = presets::PRESETS[0].scenario();
+        scenario.motion.position = position;
+        Wish::new(&scenario, StudyChoice::Polar { count: 8, max_speed: 40.0 })
+    }
+
+    fn places(revision: Revision, places: std::ops::Range<usize>) -> StudyNews {
+        #[expect(clippy::cast_precision_loss)]
+        let answers = places.map(|i| (i, PlaceAnswer::Growth(Some(i as f64)))).collect();
+        StudyNews::Places { topic: Topic::Polar, revision, answers }
+    }
+
+    fn begun(orders: &[Order]) -> Revision {
+        let [Order::Want(job)] = orders else { panic!("{orders:?}") };
+        job.revision
+    }
+
+    #[test]
+    fn a_study_begins_once_and_again_where_it_changes() {
+        let mut studies = Studies::default();
+        let first = begun(&studies.want(vec![wish([0.0, 0.0])]));
+        assert!(studies.want(vec![wish([0.0, 0.0])]).is_empty() && studies.is_working());
+        studies.take(places(first, 0..8));
+        studies.take(StudyNews::Finished { topic: Topic::Polar, revision: first });
+        assert!(studies.want(vec![wish([0.0, 0.0])]).is_empty() && !studies.is_working());
+
+        // The old one stays until a quarter of the new one is there.
+        let second = begun(&studies.want(vec![wish([1.0, 0.0])]));
+        let shown = |studies: &Studies| studies.shown(Topic::Polar).map(|s| (s.current, s.known.answered()));
+        assert_eq!(shown(&studies), Some((false, 8)));
+        studies.take(places(first, 0..8));
+        assert_eq!(studies.progress(Topic::Polar).done, 0, "news of an older study");
+        studies.take(places(second, 0..2));
+        assert_eq!(shown(&studies), Some((true, 2)));
+
+        // Back again: nothing to compute.
+        assert_eq!(studies.want(vec![wish([0.0, 0.0])]), [Order::Cancel(Topic::Polar)]);
+        assert_eq!(shown(&studies), Some((true, 8)));
+        assert_eq!(studies.progress(Topic::Polar).stage, Stage::Finished);
+    }
+
+    #[test]
+    fn a_stopped_study_waits_for_the_user_or_for_a_change() {
+        let mut studies = Studies::default();
+        let first = begun(&studies.want(vec![wish([0.0, 0.0])]));
+        studies.take(places(first, 0..3));
+        assert_eq!(studies.stop(Topic::Polar), Some(Order::Cancel(Topic::Polar)));
+        assert_eq!(studies.stop(Topic::Polar), None);
+        assert!(studies.want(vec![wish([0.0, 0.0])]).is_empty());
+        studies.take(places(first, 3..4));
+        assert_eq!(studies.shown(Topic::Polar).map(|s| s.known.answered()), Some(3));
+        let resumed = begun(&Vec::from_iter(studies.resume(Topic::Polar)));
+        assert!(resumed > first && studies.resume(Topic::Polar).is_none());
+        assert_eq!(studies.shown(Topic::Polar).map(|s| s.known.answered()), Some(3), "what is known stays");
+
+        studies.stop(Topic::Polar);
+        assert!(begun(&studies.want(vec![wish([1.0, 0.0])])) > resumed);
+    }
+
+    #[test]
+    fn nobody_looking_ends_it() {
+        let mut studies = Studies::default();
+        begun(&studies.want(vec![wish([0.0, 0.0])]));
+        assert_eq!(studies.want(Vec::new()), [Order::Cancel(Topic::Polar)]);
+        assert!(studies.want(Vec::new()).is_empty() && !studies.is_working());
+        let again = begun(&studies.want(vec![wish([0.0, 0.0])]));
+        studies.take(StudyNews::Broken("no threads".into()));
+        assert_eq!((studies.broken(), studies.progress(Topic::Polar).stage), (Some("no threads"), Stage::Failed));
+        assert!(studies.want(vec![wish([0.0, 0.0])]).is_empty(), "not again and again after {again}");
+    }
+}

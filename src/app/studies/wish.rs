@@ -1,0 +1,269 @@
+//! What a study depends on, and which studies are wanted.
+
+use crate::app::state::{MapQuantity, Plot, UiState};
+use crate::compute::protocol::{AskedChoice, DirectionsChoice, StudyChoice, Topic};
+use crate::robot::{Robot, Vec2};
+use crate::scenario::Scenario;
+use crate::scenario::report::DEFAULT_MAX_SPEED;
+use crate::study::{self, Grid, Line};
+
+/// About how many intervals a map has; spread so that they are as wide as they are high.
+const MAP_INTERVALS: f64 = 800.0;
+/// A map's least and most points in a row or column.
+const MAP_POINTS: [f64; 2] = [5.0, 161.0];
+/// Places along the line.
+const LINE_POINTS: usize = 161;
+/// Directions of the polar diagram.
+const DIRECTIONS: usize = 72;
+/// Speeds of the Campbell diagram.
+const SPEEDS: usize = 81;
+/// Meshes of the convergence study; today's joins them.
+const MESHES: [usize; 10] = [4, 6, 8, 10, 14, 20, 28, 40, 56, 80];
+/// Stands where the number of elements does not matter.
+const ANY_ELEMENTS: usize = 10;
+
+/// A study and all that its answers depend on, and nothing else: two wishes that are equal have the same answers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wish {
+    /// The scenario; what the study does not look at has a fixed value.
+    pub scenario: Scenario,
+    /// The study.
+    pub study: StudyChoice,
+}
+
+impl Wish {
+    /// `study` of `scenario`.
+    pub fn new(scenario: &Scenario, study: StudyChoice) -> Self {
+        let mut scenario = scenario.clone();
+        scenario.name = None;
+        let motion = &mut scenario.motion;
+        let speed = motion.speed;
+        motion.speed = 0.0;
+        match &study {
+            StudyChoice::Map { directions, asked, .. } => {
+                motion.position = [0.0, 0.0];
+                if *directions == DirectionsChoice::Worst {
+                    motion.direction = [1.0, 0.0];
+                }
+                if *asked == AskedChoice::Growth {
+                    motion.speed = speed;
+                }
+            }
+            StudyChoice::Polar { .. } => motion.direction = [1.0, 0.0],
+            StudyChoice::Line { .. } => start_of_line(&mut scenario),
+            StudyChoice::Campbell { .. } => {}
+            StudyChoice::Convergence { .. } => scenario.elements_per_cable = ANY_ELEMENTS,
+        }
+        Self { scenario, study }
+    }
+
+    /// What it is about.
+    pub fn topic(&self) -> Topic {
+        self.study.topic()
+    }
+
+    /// How many places it has.
+    pub fn places(&self) -> usize {
+        match &self.study {
+            StudyChoice::Line { points, .. } => *points,
+            StudyChoice::Map { nx, ny, .. } => nx * ny,
+            StudyChoice::Polar { count, .. } | StudyChoice::Campbell { count, .. } => *count,
+            StudyChoice::Convergence { counts, .. } => counts.len(),
+        }
+    }
+
+    /// How many answers give a first picture of it: of a map every fourth point of every fourth row.
+    pub fn first_picture(&self) -> usize {
+        match self.study {
+            StudyChoice::Map { nx, ny, .. } => nx.div_ceil(4) * ny.div_ceil(4),
+            _ => self.places().div_ceil(4),
+        }
+    }
+
+    /// Where a map's points are.
+    pub fn grid(&self) -> Option<Grid> {
+        let StudyChoice::Map { nx, ny, .. } = self.study else { return None };
+        let (robot, _) = self.scenario.to_robot().ok()?;
+        Some(Grid::of(&robot, nx, ny))
+    }
+
+    /// Where a line's points are.
+    pub fn line(&self) -> Option<Line> {
+        let StudyChoice::Line { points, .. } = self.study else { return None };
+        let (robot, motion) = self.scenario.to_robot().ok()?;
+        Some(Line::through(&robot, &motion, points))
+    }
+}
+
+/// Puts the platform where its line enters the workspace, so that all poses of one line are one. Outside of the
+/// workspace the line is stretched to the platform, and depends on where it is.
+fn start_of_line(scenario: &mut Scenario) {
+    let Ok((robot, motion)) = scenario.to_robot() else { return };
+    let line = Line::through(&robot, &motion, 2);
+    scenario.motion.direction = line.direction.into();
+    if is_inside(&robot, motion.position()) {
+        scenario.motion.position = line.from.into();
+    }
+}
+
+fn is_inside(robot: &Robot, position: Vec2) -> bool {
+    let [low, high] = study::workspace(robot);
+    (0..2).all(|i| (low[i]..=high[i]).contains(&position[i]))
+}
+
+/// The studies of what is open: the map where it is switched on, and that of the plot on show. `critical` is the last
+/// critical speed known, in m/s.
+pub fn wanted(scenario: &Scenario, state: &UiState, plot: Option<Plot>, critical: Option<f64>) -> Vec<Wish> {
+    let max_speed = DEFAULT_MAX_SPEED;
+    let mut wishes = Vec::new();
+    if state.map.on
+        && let Ok((robot, _)) = scenario.to_robot()
+    {
+        let [nx, ny] = map_points(&robot);
+        let directions = if state.map.worst { DirectionsChoice::Worst } else { DirectionsChoice::Motion };
+        let asked = match state.map.quantity {
+            MapQuantity::Growth => AskedChoice::Growth,
+            _ => AskedChoice::Critical { max_speed },
+        };
+        wishes.push(Wish::new(scenario, StudyChoice::Map { nx, ny, directions, asked }));
+    }
+    let study = match plot {
+        Some(Plot::Line) => StudyChoice::Line { points: LINE_POINTS, max_speed },
+        Some(Plot::Directions) => StudyChoice::Polar { count: DIRECTIONS, max_speed },
+        Some(Plot::Campbell) => {
+            StudyChoice::Campbell { to: highest_speed(scenario.motion.speed, critical), count: SPEEDS }
+        }
+        Some(Plot::Mesh) => StudyChoice::Convergence { counts: meshes(scenario.elements_per_cable), max_speed },
+        Some(Plot::Eigenvalues | Plot::Growth | Plot::Modes) | None => return wishes,
+    };
+    wishes.push(Wish::new(scenario, study));
+    wishes
+}
+
+/// Points of a map in a row and in a column.
+fn map_points(robot: &Robot) -> [usize; 2] {
+    let [low, high] = study::workspace(robot);
+    let size = high - low;
+    let side = (size.x * size.y / MAP_INTERVALS).sqrt();
+    [size.x, size.y].map(|length| {
+        let [least, most] = MAP_POINTS;
+        // Clamped to small numbers; a quotient that is none becomes the least.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let points = ((length / side).round() + 1.0).clamp(least, most) as usize;
+        points.max(5)
+    })
+}
+
+/// Where the Campbell diagram ends, in m/s: beyond both speeds, and round, so that it seldom changes.
+fn highest_speed(today: f64, critical: Option<f64>) -> f64 {
+    let beyond = 1.2 * today.max(critical.unwrap_or(0.0));
+    (5.0 * (beyond / 5.0).ceil()).max(5.0)
+}
+
+/// The meshes of the convergence study, from the coarsest on.
+fn meshes(today: usize) -> Vec<usize> {
+    let mut counts = MESHES.to_vec();
+    if let Err(place) = counts.binary_search(&today) {
+        counts.insert(place, today);
+    }
+    counts
+}
+
+#[cfg(test)]
+mod tests {
+    // Round numbers.
+    #![expect(clippy::float_cmp)]
+
+    use super::*;
+    use crate::scenario::presets;
+
+    fn state(map: bool, plot: Plot) -> UiState {
+        let mut state = UiState { plot, ..UiState::default() };
+        state.map.on = map;
+        state
+    }
+
+    /// Whether the wish for `plot`, or for the map, changes when `edit` is made.
+    fn changes(state: &UiState, edit: impl Fn(&mut Scenario)) -> bool {
+        let before = presets::PRESETS[0].scenario();
+        let mut after = before.clone();
+        edit(&mut after);
+        let wish = |scenario| wanted(scenario, state, Some(state.plot), Some(11.3)).pop();
+        wish(&before) != wish(&after)
+    }
+
+    #[test]
+    fn only_what_is_open_is_wanted() {
+        let paper = presets::PRESETS[0].scenario();
+        let topics = |state: &UiState, plot| -> Vec<Topic> {
+            wanted(&paper, state, plot, None).iter().map(Wish::topic).collect()
+        };
+        assert!(topics(&state(false, Plot::Modes), Some(Plot::Modes)).is_empty());
+        assert_eq!(topics(&state(true, Plot::Mesh), Some(Plot::Mesh)), [Topic::Map, Topic::Convergence]);
+        // On a phone the plots may be hidden.
+        assert_eq!(topics(&state(true, Plot::Mesh), None), [Topic::Map]);
+    }
+
+    #[test]
+    fn a_map_depends_on_neither_pose_nor_speed() {
+        let mut map = state(true, Plot::Modes);
+        let everything: [fn(&mut Scenario); 4] = [
+            |s| s.motion.position = [3.0, 1.0],
+            |s| s.motion.speed = 9.0,
+            |s| s.motion.direction = [0.0, 1.0],
+            |s| s.cable.youngs_modulus *= 2.0,
+        ];
+        let dependence = |state: &UiState| everything.map(|edit| changes(state, edit));
+        assert_eq!(dependence(&map), [false, false, true, true]);
+        map.map.worst = true;
+        assert_eq!(dependence(&map), [false, false, false, true]);
+        map.map.quantity = MapQuantity::Growth;
+        assert_eq!(dependence(&map), [false, true, false, true]);
+        // One study answers these.
+        let paper = presets::PRESETS[0].scenario();
+        let wish = |quantity| {
+            let mut state = state(true, Plot::Modes);
+            state.map.quantity = quantity;
+            wanted(&paper, &state, None, None)
+        };
+        for quantity in [MapQuantity::Frequency, MapQuantity::Kind, MapQuantity::Cable] {
+            assert_eq!(wish(quantity), wish(MapQuantity::Speed));
+        }
+    }
+
+    #[test]
+    fn a_line_depends_on_what_is_across_it() {
+        let line = state(false, Plot::Line);
+        assert!(!changes(&line, |s| s.motion.position = [3.0, 0.0]));
+        assert!(!changes(&line, |s| s.motion.direction = [2.0, 0.0]));
+        assert!(changes(&line, |s| s.motion.position = [3.0, 0.5]));
+        assert!(changes(&line, |s| s.motion.position = [30.0, 0.0]));
+        assert!(changes(&line, |s| s.motion.direction = [-1.0, 0.0]));
+        assert!(!changes(&line, |s| s.motion.speed = 1.0));
+    }
+
+    #[test]
+    fn the_other_studies_depend_on_the_pose() {
+        for (plot, on_direction) in [(Plot::Directions, false), (Plot::Campbell, true), (Plot::Mesh, true)] {
+            let open = state(false, plot);
+            assert!(changes(&open, |s| s.motion.position = [3.0, 0.0]));
+            assert_eq!(changes(&open, |s| s.motion.direction = [0.0, 1.0]), on_direction, "{plot:?}");
+            assert!(!changes(&open, |s| s.motion.speed = 1.0));
+        }
+        // Another mesh changes the convergence study only where it is not among those looked at.
+        let mesh = state(false, Plot::Mesh);
+        assert!(!changes(&mesh, |s| s.elements_per_cable = 20));
+        assert!(changes(&mesh, |s| s.elements_per_cable = 12));
+        assert_eq!(meshes(12)[..6], [4, 6, 8, 10, 12, 14]);
+    }
+
+    #[test]
+    fn sizes_fit_the_workspace() {
+        let (robot, _) = presets::PRESETS[0].scenario().to_robot().expect("physical");
+        assert_eq!(map_points(&robot), [41, 21]);
+        assert_eq!(
+            [highest_speed(5.0, Some(11.3)), highest_speed(0.0, None), highest_speed(30.0, None)],
+            [15.0, 5.0, 40.0]
+        );
+    }
+}

@@ -1,0 +1,209 @@
+// Studies in a browser: the map comes coarse to fine, can be cancelled, survives a lost worker and never holds the page
+// up. Times are recorded, never asserted: the machine decides them.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { browserTest, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
+
+const ROOT = fileURLToPath(new URL("../../", import.meta.url));
+const PHONE = { width: 360, height: 740 };
+/** Where things are in a window of 1280 × 800; the map test fails where the switch is not there. */
+const MAP = [912, 16];
+const TABS = { "Along the line": [998, 261], "Directions": [1097, 261], "Campbell": [1171, 261], "Mesh": [1238, 261] };
+const TOPICS = { "Along the line": "line", "Directions": "polar", "Campbell": "campbell", "Mesh": "convergence" };
+/** On a phone. */
+const PHONE_MAP = [332, 16];
+
+/** The critical speed by the command line. */
+function commandLine(scenario) {
+    const folder = process.env.CARGO_TARGET_DIR ?? `${ROOT}target`;
+    const program = ["debug", "release"].map((profile) => `${folder}/${profile}/tautline`).find(existsSync);
+    assert.ok(program, "no native program to compare with: run cargo build first");
+    const input = JSON.stringify(scenario);
+    return JSON.parse(execFileSync(program, ["analyze", "-", "--json"], { input, encoding: "utf8", maxBuffer: 1e8 }));
+}
+
+const studies = (page) => page.evaluate(() => window.tautline.studies());
+const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
+const frames = async (page) => median(await page.evaluate(() => window.tautline.timings().frames_ms));
+
+async function waitForStudies(page, predicate, { timeout = 120_000 } = {}) {
+    const begun = Date.now();
+    for (;;) {
+        const now = await studies(page);
+        if (predicate(now)) return now;
+        if (Date.now() - begun > timeout) {
+            const { map_values: _, ...short } = now;
+            throw new Error(`no such state within ${timeout} ms; the last one: ${JSON.stringify(short)}`);
+        }
+        await page.waitForTimeout(10);
+    }
+}
+
+async function start(page) {
+    await waitForStart(page);
+    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
+}
+
+/** Compares some of the map's rows with the command line. */
+function compare(rows, scenario) {
+    const some = rows.filter((row, i) => i % 97 === 0 || (row[0] === 6 && row[1] === 0));
+    assert.ok(some.length > 8, `${some.length} rows`);
+    for (const [x, y, feasible, speed, frequency, kind, cable] of some) {
+        const expected = commandLine({ ...scenario, motion: { ...scenario.motion, position: [x, y] } });
+        const where = `at (${x}, ${y})`;
+        assert.equal(feasible, expected.feasible, where);
+        assert.equal(speed === null, expected.critical === null, where);
+        if (speed === null) continue;
+        assert.ok(Math.abs(speed - expected.critical.speed) <= 1e-6 * expected.critical.speed, `${where}: ${speed}`);
+        assert.ok(Math.abs(frequency - expected.critical.frequency_hz) <= 1e-6 * (1 + frequency), `${where}: ${frequency}`);
+        assert.deepEqual([kind, cable], [expected.critical.kind, expected.critical.cable], where);
+    }
+}
+
+browserTest("the map comes coarse to fine and equals the command line", async ({ open }) => {
+    const page = await open();
+    await start(page);
+    const begun = Date.now();
+    await page.mouse.click(...MAP);
+    const seen = new Set();
+    let coarse;
+    const { map } = await waitForStudies(page, ({ map }) => {
+        seen.add(map.done);
+        // Every fourth point of every fourth row.
+        if (map.done >= 11 * 6) coarse ??= Date.now() - begun;
+        return map.finished;
+    });
+    const whole = Date.now() - begun;
+    const frame = await frames(page);
+    assert.equal(map.total, 41 * 21);
+    assert.ok(seen.size > 5, `progress in ${seen.size} steps`);
+    console.log(`map 41 x 21: quarter resolution after ${coarse} ms, all after ${whole} ms, median frame ${frame.toFixed(1)} ms`);
+    const { map_values: values } = await waitForStudies(page, (now) => now.map_values?.rows.length === map.total);
+    assert.equal(values.current, true);
+    compare(values.rows, await page.evaluate(() => window.tautline.scenario()));
+    await page.mouse.move(750, 330);
+    await page.waitForTimeout(300);
+    await screenshot(page, "map light");
+
+    // A click moves the platform, and the map has no reason to begin anew.
+    await page.mouse.click(750, 330);
+    await page.waitForFunction(() => window.tautline.scenario().motion.position[0] > 1);
+    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
+    assert.equal((await studies(page)).map.revision, map.revision);
+}, { timeout: 180_000 });
+
+browserTest("a map is cancelled, resumed, and begins anew with another robot", async ({ open }) => {
+    const page = await open();
+    await start(page);
+    await page.mouse.click(...MAP);
+    await waitForStudies(page, ({ map }) => map.done > 20);
+    await page.mouse.click(905, 40); // Cancel, in the row below the switch.
+    await page.waitForTimeout(500);
+    const stopped = (await studies(page)).map;
+    await page.waitForTimeout(500);
+    assert.deepEqual((await studies(page)).map, stopped, "it goes on");
+    assert.ok(stopped.done < stopped.total && !stopped.finished, JSON.stringify(stopped));
+    await screenshot(page, "map cancelled");
+    await page.mouse.click(905, 40); // Resume.
+    await waitForStudies(page, ({ map }) => map.finished && map.revision > stopped.revision);
+
+    const scenario = await page.evaluate(() => window.tautline.scenario());
+    const stiffer = { ...scenario, cable: { ...scenario.cable, youngs_modulus: 200e6 } };
+    const before = (await studies(page)).map.revision;
+    await page.evaluate((json) => window.tautline.load(json), JSON.stringify(stiffer));
+    const { map } = await waitForStudies(page, ({ map }) => map.finished && map.revision > before);
+    const { map_values: values } = await waitForStudies(
+        page, (now) => now.map_values.current && now.map_values.rows.length === map.total);
+    await page.waitForTimeout(300);
+    compare(values.rows, stiffer);
+}, { timeout: 240_000 });
+
+browserTest("a map survives the loss of a worker", async ({ open }) => {
+    const page = await open();
+    await start(page);
+    const engine = page.workers().length;
+    await page.mouse.click(...MAP);
+    await waitForStudies(page, ({ map }) => map.done > 20);
+    const pool = page.workers().slice(engine);
+    assert.ok(pool.length > 0, "no workers of the pool");
+    await pool[0].evaluate(() => self.close()).catch(() => {});
+    const { map } = await waitForStudies(page, ({ map }) => map.finished);
+    assert.equal(map.done, map.total);
+    const { map_values: values } = await waitForStudies(page, (now) => now.map_values?.rows.length === map.total);
+    compare(values.rows, await page.evaluate(() => window.tautline.scenario()));
+}, { timeout: 240_000 });
+
+browserTest("while a map is computed the platform follows the pointer", async ({ open }) => {
+    const page = await open();
+    await start(page);
+    const record = async (what) => {
+        await page.mouse.move(640, 400);
+        await page.mouse.down();
+        const trails = [];
+        for (let i = 1; i <= 40; i++) {
+            const asked = Date.now();
+            const before = await page.evaluate(() => window.tautline.analysis().revision);
+            await page.mouse.move(640 + 2 * i, 400);
+            // Nothing is asked for where the pointer came back to where it was.
+            const answered = await page.waitForFunction((before) => window.tautline.analysis().revision > before, before,
+                { polling: 5, timeout: 5000 }).then(() => true, () => false);
+            if (answered) trails.push(Date.now() - asked);
+        }
+        const frame = await frames(page);
+        await page.mouse.up();
+        assert.ok(trails.length > 30, `${trails.length} answers`);
+        console.log(`${what}: answers trail the pointer by ${median(trails)} ms (median, ${Math.max(...trails)} ms at most), ` +
+            `median frame ${frame.toFixed(1)} ms`);
+        await page.evaluate((json) => window.tautline.load(json), JSON.stringify(scenario));
+        await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
+    };
+    const scenario = await page.evaluate(() => window.tautline.scenario());
+    await record("drag, no study");
+    await page.mouse.click(...MAP);
+    await waitForStudies(page, ({ map }) => map.done > 20);
+    await record("drag, map at work");
+    const { map } = await waitForStudies(page, ({ map }) => map.finished);
+    assert.equal(map.revision, 1, "a drag does not restart the map");
+    await page.mouse.click(...TABS["Along the line"]);
+    await waitForStudies(page, ({ line }) => line.finished);
+    await record("drag, line open");
+    await waitForStudies(page, ({ line }) => line.finished && line.current);
+}, { timeout: 240_000 });
+
+for (const colorScheme of ["light", "dark"]) {
+    browserTest(`every study has its plot, ${colorScheme}`, async ({ open }) => {
+        const page = await open("", { colorScheme });
+        await start(page);
+        await page.mouse.click(...MAP);
+        for (const [tab, at] of Object.entries(TABS)) {
+            await page.mouse.click(...at);
+            await waitForStudies(page, (now) => now[TOPICS[tab]].finished && now.map.finished);
+            await page.mouse.move(640, 700);
+            await page.waitForTimeout(400);
+            await screenshot(page, `${tab} ${colorScheme}`);
+        }
+    }, { timeout: 240_000 });
+
+    browserTest(`maps and plots on a phone, ${colorScheme}`, async ({ open }) => {
+        const page = await open("", { colorScheme, viewport: PHONE });
+        await start(page);
+        await page.mouse.click(...PHONE_MAP);
+        await waitForStudies(page, ({ map }) => map.finished);
+        await page.waitForTimeout(400);
+        await screenshot(page, `map phone ${colorScheme}`);
+        await page.mouse.click(103, 464); // Plots
+        await page.waitForTimeout(300);
+        for (const [tab, x] of Object.entries({ "Along the line": 72, "Directions": 153, "Campbell": 234, "Mesh": 301 })) {
+            await page.mouse.click(x, 583);
+            await waitForStudies(page, (now) => now[TOPICS[tab]].finished);
+            await page.mouse.move(200, 700);
+            await page.mouse.wheel(0, 3000);
+            await page.waitForTimeout(500);
+            await screenshot(page, `${tab} phone ${colorScheme}`);
+            await page.mouse.wheel(0, -6000);
+            await page.waitForTimeout(500);
+        }
+    }, { timeout: 240_000 });
+}
