@@ -32,8 +32,10 @@ pub struct Link {
     /// Messages from before the worker was ready, when they would be lost; `None` from then on.
     early: Rc<RefCell<Option<Vec<Vec<u8>>>>>,
     /// Kept alive for as long as the worker may call them.
-    _listeners: (Closure<dyn FnMut(MessageEvent)>, Closure<dyn FnMut(ErrorEvent)>),
+    _listeners: Listeners,
 }
+
+type Listeners = (Closure<dyn FnMut(MessageEvent)>, Closure<dyn FnMut(ErrorEvent)>);
 
 impl Link {
     /// Starts a worker; `hear` is called with whatever is heard of it.

@@ -93,9 +93,8 @@ impl Places {
         let direction = match &self.study {
             Study::Line { line, .. } => line.direction,
             Study::Polar { count, .. } => compass(place, *count),
-            Study::Elements { direction, .. } => *direction,
             Study::Map { asked: Asked::Growth { .. }, .. } => return PlaceAnswer::Growth(None),
-            Study::Map { directions: Directions::One(direction), .. } => *direction,
+            Study::Map { directions: Directions::One(direction), .. } | Study::Elements { direction, .. } => *direction,
             Study::Map { directions: Directions::Worst(_), .. } => Vec2::x(),
             Study::Speeds { .. } => return PlaceAnswer::Spectrum(None),
         };

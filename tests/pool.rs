@@ -1,0 +1,276 @@
+//! The pool of workers: every place of every study once, with the study's own answer; replacing, cancelling, holding.
+
+#![cfg(feature = "compute")]
+
+use std::collections::BTreeMap;
+use std::sync::mpsc::{Receiver, channel};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use tautline::compute::Pool;
+use tautline::compute::protocol::{
+    AskedChoice, DirectionsChoice, PlaceAnswer, Revision, StudyChoice, StudyJob, StudyNews, Topic, VerdictAnswer,
+};
+use tautline::scenario::report::CriticalReport;
+use tautline::scenario::{Scenario, presets};
+use tautline::study::{Answer, Asked, Directions, Grid, Line, Study, Verdict};
+
+const LIMIT: f64 = 40.0;
+const TOO_LONG: Duration = Duration::from_mins(2);
+
+fn paper() -> Scenario {
+    let mut scenario = presets::PRESETS[0].scenario();
+    scenario.motion.position = [2.0, 0.5];
+    scenario.motion.direction = [1.0, 0.5];
+    scenario.elements_per_cable = 4;
+    scenario
+}
+
+fn job(revision: Revision, study: StudyChoice) -> StudyJob {
+    StudyJob { revision, scenario: paper().to_json(), study }
+}
+
+fn map(nx: usize, ny: usize) -> StudyChoice {
+    let asked = AskedChoice::Critical { max_speed: LIMIT };
+    StudyChoice::Map { nx, ny, directions: DirectionsChoice::Motion, asked }
+}
+
+/// Each choice with the study that it is.
+fn studies() -> Vec<(StudyChoice, Study)> {
+    let (robot, motion) = paper().to_robot().expect("physical");
+    let (position, direction) = (motion.position(), motion.direction());
+    let counts = vec![8, 2, 4];
+    let grid = Grid::of(&robot, 5, 4);
+    let asked = [
+        (AskedChoice::Critical { max_speed: LIMIT }, Asked::Critical { limit: LIMIT }),
+        (AskedChoice::Growth, Asked::Growth { speed: motion.speed() }),
+    ];
+    let directions = [
+        (DirectionsChoice::Motion, Directions::One(direction)),
+        (DirectionsChoice::Worst, Directions::Worst(Directions::WORST_OF)),
+    ];
+    let mut studies = vec![
+        (
+            StudyChoice::Line { points: 11, max_speed: LIMIT },
+            Study::Line { line: Line::through(&robot, &motion, 11), limit: LIMIT },
+        ),
+        (StudyChoice::Polar { count: 9, max_speed: LIMIT }, Study::Polar { position, count: 9, limit: LIMIT }),
+        (StudyChoice::Campbell { to: 12.0, count: 13 }, Study::Speeds { position, direction, to: 12.0, count: 13 }),
+        (
+            StudyChoice::Convergence { counts: counts.clone(), max_speed: LIMIT },
+            Study::Elements { position, direction, counts, limit: LIMIT },
+        ),
+    ];
+    for (asked_choice, asked) in asked {
+        for (directions_choice, directions) in directions {
+            studies.push((
+                StudyChoice::Map { nx: 5, ny: 4, directions: directions_choice, asked: asked_choice },
+                Study::Map { grid, directions, asked },
+            ));
+        }
+    }
+    studies
+}
+
+fn plain(answer: Answer) -> PlaceAnswer {
+    match answer {
+        Answer::Critical { direction, verdict } => PlaceAnswer::Critical {
+            direction: [direction.x, direction.y],
+            verdict: match verdict {
+                Verdict::Infeasible => VerdictAnswer::Infeasible,
+                Verdict::NotConverged => VerdictAnswer::NotConverged,
+                Verdict::NoneUpTo(limit) => VerdictAnswer::NoneUpTo(limit),
+                Verdict::Critical(critical) => VerdictAnswer::Critical(CriticalReport::from(&critical)),
+            },
+        },
+        Answer::Growth(rate) => PlaceAnswer::Growth(rate),
+        Answer::Spectrum(spectrum) => {
+            PlaceAnswer::Spectrum(spectrum.map(|values| values.iter().map(|value| [value.re, value.im]).collect()))
+        }
+    }
+}
+
+/// What has come of each topic.
+#[derive(Default)]
+struct Seen {
+    answers: BTreeMap<(Topic, Revision), BTreeMap<usize, PlaceAnswer>>,
+    /// In the order in which they came.
+    places: Vec<(Topic, usize)>,
+    finished: Vec<(Topic, Revision)>,
+}
+
+impl Seen {
+    fn take_in(&mut self, news: Vec<StudyNews>) {
+        for news in news {
+            match news {
+                StudyNews::Places { topic, revision, answers } => {
+                    assert!(!answers.is_empty());
+                    for (place, answer) in answers {
+                        self.places.push((topic, place));
+                        let before = self.answers.entry((topic, revision)).or_default().insert(place, answer);
+                        assert_eq!(before, None, "{topic:?} {place} came twice");
+                    }
+                }
+                StudyNews::Finished { topic, revision } => self.finished.push((topic, revision)),
+                StudyNews::Refused { reason, .. } | StudyNews::Broken(reason) => panic!("{reason}"),
+            }
+        }
+    }
+}
+
+struct Watched {
+    pool: Pool,
+    woken: Receiver<()>,
+    seen: Seen,
+}
+
+impl Watched {
+    fn new() -> Self {
+        let (sender, woken) = channel();
+        let wake = move || {
+            // Nobody listens once the test has ended.
+            let _ = sender.send(());
+        };
+        Self { pool: Pool::new(wake), woken, seen: Seen::default() }
+    }
+
+    /// Polls when woken, and only then, until `done`.
+    fn until(&mut self, done: impl Fn(&Seen) -> bool) {
+        self.seen.take_in(self.pool.poll());
+        let begun = Instant::now();
+        while !done(&self.seen) {
+            let left = TOO_LONG.saturating_sub(begun.elapsed());
+            self.woken.recv_timeout(left).expect("to be woken");
+            self.seen.take_in(self.pool.poll());
+        }
+    }
+
+    /// Waits until the batches on their way have come, then fetches their answers.
+    fn settle(&mut self) {
+        let mut before = usize::MAX;
+        while self.seen.places.len() != before {
+            before = self.seen.places.len();
+            sleep(Duration::from_millis(300));
+            self.seen.take_in(self.pool.poll());
+        }
+    }
+}
+
+#[test]
+fn every_study_gives_at_every_place_what_it_gives_alone() {
+    let (robot, _) = paper().to_robot().expect("physical");
+    let mut watched = Watched::new();
+    assert!((1..=8).contains(&watched.pool.size()));
+    for (revision, (choice, study)) in (1..).zip(studies()) {
+        let topic = choice.topic();
+        watched.pool.want(job(revision, choice));
+        // What is small may have ended already.
+        assert!(watched.pool.progress(topic).is_none_or(|(_, all)| all == study.len()));
+        watched.until(|seen| seen.finished.contains(&(topic, revision)));
+        assert_eq!(watched.pool.progress(topic), None);
+        let expected: BTreeMap<usize, PlaceAnswer> =
+            (0..study.len()).map(|place| (place, plain(study.answer(&robot, place)))).collect();
+        assert_eq!(watched.seen.answers[&(topic, revision)], expected);
+    }
+}
+
+#[test]
+fn all_topics_are_answered_side_by_side_and_a_map_starves_none() {
+    let mut watched = Watched::new();
+    watched.pool.want(job(1, map(33, 17)));
+    for (choice, _) in studies().into_iter().take(4) {
+        watched.pool.want(job(1, choice));
+    }
+    watched.until(|seen| seen.finished.len() == 5);
+    assert_eq!(watched.seen.finished.last(), Some(&(Topic::Map, 1)));
+    let of_the_map: Vec<usize> =
+        watched.seen.places.iter().filter(|(topic, _)| *topic == Topic::Map).map(|(_, place)| *place).collect();
+    assert_eq!(of_the_map.len(), 33 * 17);
+    // Every 4th point of every 4th row comes first, but for what is on its way at the same time.
+    let coarse = |place: usize| (place % 33).is_multiple_of(4) && (place / 33).is_multiple_of(4);
+    let last_coarse = of_the_map.iter().rposition(|&place| coarse(place)).expect("a coarse place");
+    let most_ahead = 2 * 64 * watched.pool.size();
+    assert!(last_coarse < 9 * 5 + most_ahead, "the coarse picture is there after {last_coarse} places");
+    let last_small = watched.seen.places.iter().rposition(|(topic, _)| *topic != Topic::Map).expect("a small study");
+    assert!(last_small < watched.seen.places.len() / 2, "small studies end after {last_small} places");
+}
+
+#[test]
+fn a_study_takes_the_place_of_its_topics_older_one() {
+    let mut watched = Watched::new();
+    watched.pool.want(job(1, map(33, 17)));
+    watched.until(|seen| !seen.places.is_empty());
+    // Of the same shape, so that places alone would not tell them apart.
+    let mut other = job(2, map(33, 17));
+    let mut scenario = paper();
+    scenario.motion.direction = [0.0, 1.0];
+    other.scenario = scenario.to_json();
+    watched.pool.want(other);
+    watched.pool.want(job(3, StudyChoice::Line { points: 3, max_speed: LIMIT }));
+    let old = watched.seen.answers[&(Topic::Map, 1)].len();
+    watched.until(|seen| seen.finished.len() == 2);
+    assert_eq!(watched.seen.answers[&(Topic::Map, 1)].len(), old, "more of what is wanted no longer");
+    assert_eq!(watched.seen.answers[&(Topic::Map, 2)].len(), 33 * 17);
+    assert!(!watched.seen.finished.contains(&(Topic::Map, 1)));
+    for answer in watched.seen.answers[&(Topic::Map, 2)].values() {
+        assert!(
+            matches!(answer, PlaceAnswer::Critical { direction, .. } if direction[1].to_bits() == 1.0_f64.to_bits()),
+            "{answer:?}"
+        );
+    }
+}
+
+#[test]
+fn nothing_more_comes_of_a_cancelled_study() {
+    let mut watched = Watched::new();
+    watched.pool.want(job(1, map(41, 21)));
+    watched.until(|seen| !seen.places.is_empty());
+    watched.pool.cancel(Topic::Map);
+    assert_eq!(watched.pool.progress(Topic::Map), None);
+    sleep(Duration::from_millis(100));
+    assert_eq!(watched.pool.poll(), []);
+}
+
+#[test]
+fn nothing_is_begun_while_held() {
+    let mut watched = Watched::new();
+    watched.pool.hold(true);
+    watched.pool.want(job(1, map(41, 21)));
+    watched.settle();
+    assert_eq!((watched.seen.places.len(), watched.pool.progress(Topic::Map)), (0, Some((0, 861))));
+    watched.pool.hold(false);
+    watched.until(|seen| !seen.places.is_empty());
+    watched.pool.hold(true);
+    watched.settle();
+    let held = watched.pool.progress(Topic::Map);
+    assert!(held.is_some_and(|(answered, _)| answered < 861), "{held:?}");
+    sleep(Duration::from_millis(100));
+    assert_eq!((watched.pool.poll(), watched.pool.progress(Topic::Map)), (Vec::new(), held));
+    watched.pool.hold(false);
+    watched.until(|seen| seen.finished == [(Topic::Map, 1)]);
+    assert_eq!(watched.seen.places.len(), 861);
+}
+
+#[test]
+fn what_cannot_be_begun_is_refused_and_what_is_empty_is_finished() {
+    let mut watched = Watched::new();
+    let mut unphysical = job(1, map(3, 3));
+    unphysical.scenario = unphysical.scenario.replace("\"mass\": 2", "\"mass\": -2");
+    watched.pool.want(unphysical);
+    watched.pool.want(job(2, StudyChoice::Polar { count: 4, max_speed: f64::NAN }));
+    watched.pool.want(job(3, StudyChoice::Convergence { counts: Vec::new(), max_speed: LIMIT }));
+    let news = watched.pool.poll();
+    let [
+        StudyNews::Refused { topic: Topic::Map, revision: 1, reason: first },
+        StudyNews::Refused { topic: Topic::Polar, revision: 2, reason: second },
+        StudyNews::Finished { topic: Topic::Convergence, revision: 3 },
+    ] = &news[..]
+    else {
+        panic!("{news:?}")
+    };
+    assert!(first.contains("platform.mass") && second.contains("NaN"), "{first} {second}");
+    // A refusal takes the older study's place too.
+    watched.pool.want(job(4, map(41, 21)));
+    watched.pool.want(StudyJob { scenario: String::new(), ..job(5, map(3, 3)) });
+    assert_eq!(watched.pool.progress(Topic::Map), None);
+}
