@@ -164,8 +164,12 @@ pub fn progress(ui: &mut Ui, topic: Topic, studies: &Studies, commands: &mut Vec
                 commands.push(Command::StopStudy(topic));
             }
             let text = format!("{} of {}", progress.done, progress.total);
-            let response = ui.add(ProgressBar::new(part).desired_width(120.0).text(text));
-            response.on_hover_text("Points computed so far");
+            ui.scope(|ui| {
+                // The bar's own ground is the canvas's.
+                ui.visuals_mut().extreme_bg_color = ui.visuals().widgets.inactive.weak_bg_fill;
+                let response = ui.add(ProgressBar::new(part).desired_width(120.0).text(text));
+                response.on_hover_text("Points computed so far");
+            });
         }
         Stage::Stopped => {
             if ui.button("Resume").clicked() {
