@@ -22,6 +22,8 @@ const CONVERGED: f64 = 1e-9;
 /// steps of this part are let pass, if the sums over all eigenvalues are right all the same.
 const STAGNATED: f64 = 1e-4;
 const ROUNDING: f64 = 1e-15;
+/// By this part an estimate is moved where its step cannot be computed.
+const ASIDE: f64 = 1e-8;
 /// A step is at most this part of the estimate.
 const LARGEST_STEP: f64 = 0.5;
 /// By this part of the distance to the nearest other one estimates are moved off the real axis and off each other where pairs are not kept together.
@@ -152,18 +154,19 @@ impl Spectra {
         // Newton's steps without the other estimates: how far the next eigenvalue may be.
         let mut newton = vec![0.0; count];
         let mut largest_step = 0.0;
-        let mut whole = true;
+        let (mut whole, mut last_step) = (true, f64::INFINITY);
         for _ in 0..SWEEPS {
             largest_step = 0.0_f64;
             for (j, done) in converged.iter_mut().enumerate().filter(|(_, done)| !**done) {
                 let z = estimates.values[j];
-                let slope = self.function.at(z, speed).by_lambda;
-                newton[j] = slope.norm_sqr().sqrt().recip();
-                let mut step = (slope - estimates.others(j)).inv();
-                if !(step.re.is_finite() && step.im.is_finite()) {
-                    // The elimination has met a singular pivot: from a little further on it can go on.
-                    step = z * 1e-8;
-                }
+                let [alone, mut step] = self.step(&estimates, j, z, speed).unwrap_or_else(|| {
+                    // The elimination has met a singular pivot, perhaps right at an eigenvalue: from a little further on
+                    // it goes to where it should from here.
+                    let offset = z * ASIDE;
+                    let [newton, step] = self.step(&estimates, j, z + offset, speed).unwrap_or([offset * 2.0; 2]);
+                    [newton - offset, step - offset]
+                });
+                newton[j] = alone.norm();
                 let size = z.norm();
                 *done = step.norm() <= (CONVERGED * size).max(ROUNDING * self.scale);
                 largest_step = largest_step.max(step.norm() / size);
@@ -175,8 +178,12 @@ impl Spectra {
             }
             let all = converged.iter().all(|&done| done);
             if all && whole {
-                largest_step = CONVERGED;
-                break;
+                // Near each other estimates come to rest slowly: they go on for as long as it gains something.
+                if largest_step > 0.1 * last_step {
+                    largest_step = CONVERGED;
+                    break;
+                }
+                last_step = largest_step;
             }
             // Those that came to rest first have seen the others move since: all are looked at once more.
             if all {
@@ -191,6 +198,13 @@ impl Spectra {
         }
         let estimates = estimates.symmetric(largest_step)?;
         self.are_all(&estimates, speed).then_some(estimates)
+    }
+
+    /// The step of the j-th estimate from `z`: without regard to the others, and with it. `None` where it is not finite.
+    fn step(&self, estimates: &Estimates, j: usize, z: C64, speed: f64) -> Option<[C64; 2]> {
+        let slope = self.function.at(z, speed).by_lambda;
+        let steps = [slope, slope - estimates.others(j, z)].map(inverse);
+        steps.iter().all(|step| step.re.is_finite() && step.im.is_finite()).then_some(steps)
     }
 
     /// Whether the estimates are all eigenvalues: by their sum, which the largest ones make, and at a few places by the
@@ -219,8 +233,7 @@ impl Spectra {
 
 impl Estimates {
     /// Σ 1/(z − zₖ) over all others than the j-th, its partner among them.
-    fn others(&self, j: usize) -> C64 {
-        let z = self.values[j];
+    fn others(&self, j: usize, z: C64) -> C64 {
         let mut sum = C64::new(0.0, 0.0);
         let mut add = |other: C64| sum += inverse(z - other);
         for (k, &other) in self.values.iter().enumerate() {
