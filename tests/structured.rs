@@ -47,6 +47,10 @@ const FIXED: [u64; 3] = [5664, 5270, 5949];
 /// further off than its last step.
 const CROWDED: [u64; 8] = [5, 70, 131, 172, 241, 509, 658, 956];
 
+/// Robots of which an estimate once met an eigenvalue exactly, where elimination ends in a singular pivot, and was kept a
+/// little beside it.
+const MET: [u64; 7] = [151, 303, 510, 612, 788, 918, 995];
+
 /// A robot with its referee.
 struct Drawn {
     robot: Robot,
@@ -450,4 +454,9 @@ fn all_eigenvalues_are_those_of_the_dense_solver() {
 #[test]
 fn eigenvalues_are_as_exact_where_they_crowd() {
     check_eigenvalues(&CROWDED);
+}
+
+#[test]
+fn eigenvalues_that_are_met_exactly_are_kept() {
+    check_eigenvalues(&MET);
 }

@@ -27,6 +27,8 @@ const PATIENCE: Duration = Duration::from_millis(400);
 /// A curve of growth rates that has taken longer is dropped for a newer pose; others are finished, so that a drag shows
 /// curves.
 const CURVE_PATIENCE: Duration = Duration::from_millis(100);
+/// For so long after a curve the next one is dropped for a newer pose: the critical speed is to follow the pointer.
+const CURVE_PAUSE: Duration = Duration::from_millis(500);
 /// The curve of growth rates goes on to this multiple of the critical speed and of today's.
 const CURVE_MARGIN: f64 = 1.3;
 /// The curve's points where the search has left none, and beyond those that it has left.
@@ -44,6 +46,8 @@ pub struct Engine {
     waiting: Option<Pose>,
     /// The pose whose critical speed is being searched for or has been found.
     running: Option<Pose>,
+    /// When the last curve of growth rates was complete.
+    last_curve: Option<Instant>,
 }
 
 /// A pose under analysis.
@@ -98,7 +102,10 @@ impl Engine {
         };
         let finished = match &running.stage {
             Stage::Searching { since, .. } => overtaken && since.elapsed() > PATIENCE,
-            Stage::Curve { since, .. } => overtaken && since.elapsed() > CURVE_PATIENCE,
+            Stage::Curve { since, .. } => {
+                let recent = self.last_curve.is_some_and(|last| last.elapsed() < CURVE_PAUSE);
+                overtaken && (recent || since.elapsed() > CURVE_PATIENCE)
+            }
             Stage::Done => true,
         };
         if finished {
@@ -107,7 +114,11 @@ impl Engine {
             self.running = Some(next);
             return Some(Vec::new());
         }
-        Some(running.slice())
+        let slice = running.slice();
+        if slice.iter().any(|reply| matches!(reply.update, Update::Curve(_))) {
+            self.last_curve = Some(Instant::now());
+        }
+        Some(slice)
     }
 
     /// Serves the pose of a new job.
