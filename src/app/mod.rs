@@ -81,6 +81,10 @@ impl Tautline {
                 None
             }
         };
+        // Held until the first answer is there, which comes before all studies.
+        let mut pool = Pool::new(move || wake_for_studies.request_repaint());
+        pool.hold(true);
+        pool.prepare();
         let mut app = Self {
             document: Document { scenario: scenario.clone() },
             original: scenario,
@@ -88,7 +92,7 @@ impl Tautline {
             answers,
             compute,
             studies: Studies::default(),
-            pool: Pool::new(move || wake_for_studies.request_repaint()),
+            pool,
             dragging: false,
             plots_open: false,
             layer: canvas::map::Layer::default(),

@@ -31,10 +31,15 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// A pool without workers; they start once there is work. `wake` is called whenever there is news to poll for, on
+    /// A pool without workers; they start once there is work, or by [`Self::prepare`]. `wake` is called whenever there is news to poll for, on
     /// the desktop from any thread.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { shared: Shared::new(wake) }
+    }
+
+    /// Has a worker started before there is work, once nothing is held: in the browser loading one takes a while.
+    pub fn prepare(&mut self) {
+        self.shared.with(|core| core.scheduler.prepare());
     }
 
     /// Begins a study in the place of its topic's present one, of which nothing more comes.

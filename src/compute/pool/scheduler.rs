@@ -37,6 +37,8 @@ pub struct Scheduler {
     /// Whether workers may vanish without a word.
     silent_losses: bool,
     held: bool,
+    /// Whether a worker is to be there before there is work.
+    prepared: bool,
     studies: BTreeMap<Topic, AtWork>,
     /// What a place of weight 1 took of late, in s.
     rates: BTreeMap<Topic, f64>,
@@ -73,6 +75,7 @@ impl Scheduler {
             size: size.max(1),
             silent_losses,
             held: false,
+            prepared: false,
             studies: BTreeMap::new(),
             rates: BTreeMap::new(),
             workers: BTreeMap::new(),
@@ -122,6 +125,11 @@ impl Scheduler {
     /// While held, no places are handed out and no workers started.
     pub fn hold(&mut self, held: bool) {
         self.held = held;
+    }
+
+    /// Has a worker ready for the first study, as soon as nothing is held.
+    pub fn prepare(&mut self) {
+        self.prepared = true;
     }
 
     /// Places answered, of all places.
@@ -275,9 +283,10 @@ impl Scheduler {
         }
     }
 
-    /// As many as there is work for.
+    /// As many as there is work for, and the one that is to be there before.
     fn start_workers(&mut self, actions: &mut Vec<Action>) {
-        let waiting: usize = self.studies.values().map(AtWork::waiting).sum();
+        let first = usize::from(self.prepared && self.workers.is_empty());
+        let waiting = self.studies.values().map(AtWork::waiting).sum::<usize>().max(first);
         let mut starting = self.workers.values().filter(|worker| !worker.ready).count();
         while self.workers.len() < self.size && starting < waiting && self.failures < MOST_FAILURES {
             self.last_worker += 1;

@@ -160,6 +160,22 @@ fn workers_start_when_there_is_work_and_hear_of_a_study_once() {
 }
 
 #[test]
+fn a_worker_is_prepared_once_nothing_is_held() {
+    let mut stage = Stage::new(2);
+    stage.scheduler.hold(true);
+    stage.scheduler.prepare();
+    stage.go_on();
+    assert_eq!(stage.starts, [] as [u64; 0]);
+    stage.scheduler.hold(false);
+    stage.go_on();
+    stage.go_on();
+    assert_eq!(stage.starts, [1], "one, and no more of them without work");
+    stage.scheduler.want(job(1, line(1)));
+    stage.go_on();
+    assert_eq!(stage.starts, [1]);
+}
+
+#[test]
 fn batches_are_as_long_as_their_time_and_what_is_left_over_comes_first() {
     let mut stage = Stage::new(1);
     stage.scheduler.want(job(1, line(400)));
