@@ -1,20 +1,6 @@
 // The app in a browser: what is on show follows the pointer, and equals what the command line says.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { existsSync } from "node:fs";
-import { fileURLToPath } from "node:url";
-import { browserTest, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
-
-const ROOT = fileURLToPath(new URL("../../", import.meta.url));
-
-/** What the command line says to a scenario. */
-function commandLine(scenario) {
-    const folder = process.env.CARGO_TARGET_DIR ?? `${ROOT}target`;
-    const program = ["debug", "release"].map((profile) => `${folder}/${profile}/tautline`).find(existsSync);
-    assert.ok(program, "no native program to compare with: run cargo build first");
-    const input = JSON.stringify(scenario);
-    return JSON.parse(execFileSync(program, ["analyze", "-", "--json"], { input, encoding: "utf8", maxBuffer: 1e8 }));
-}
+import { browserTest, commandLine, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
 
 function close(actual, expected, tolerance, what) {
     assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual} in place of ${expected}`);

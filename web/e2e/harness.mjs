@@ -7,7 +7,8 @@
 //
 // CHROMIUM names the browser's program, if it is not one of those below on PATH.
 import assert from "node:assert/strict";
-import { accessSync, constants, mkdirSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { accessSync, constants, existsSync, mkdirSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
 import path from "node:path";
@@ -199,4 +200,13 @@ export async function colours(page, png) {
     } finally {
         await blank.close();
     }
+}
+
+/** What the command line says to a scenario. */
+export function commandLine(scenario) {
+    const folder = process.env.CARGO_TARGET_DIR ?? `${ROOT}target`;
+    const program = ["debug", "release"].map((profile) => `${folder}/${profile}/tautline`).find(existsSync);
+    assert.ok(program, "no native program to compare with: run cargo build first");
+    const input = JSON.stringify(scenario);
+    return JSON.parse(execFileSync(program, ["analyze", "-", "--json"], { input, encoding: "utf8", maxBuffer: 1e8 }));
 }

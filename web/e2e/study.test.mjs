@@ -1,12 +1,8 @@
 // Studies in a browser: the map comes coarse to fine, can be cancelled, survives a lost worker and never holds the page
 // up. Times are recorded, never asserted: the machine decides them.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { existsSync } from "node:fs";
-import { fileURLToPath } from "node:url";
-import { browserTest, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
+import { browserTest, commandLine, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
 
-const ROOT = fileURLToPath(new URL("../../", import.meta.url));
 const PHONE = { width: 360, height: 740 };
 /** Where things are in a window of 1280 × 800; the map test fails where the switch is not there. */
 const MAP = [912, 16];
@@ -14,15 +10,6 @@ const TABS = { "Along the line": [998, 261], "Directions": [1097, 261], "Campbel
 const TOPICS = { "Along the line": "line", "Directions": "polar", "Campbell": "campbell", "Mesh": "convergence" };
 /** On a phone. */
 const PHONE_MAP = [332, 16];
-
-/** The critical speed by the command line. */
-function commandLine(scenario) {
-    const folder = process.env.CARGO_TARGET_DIR ?? `${ROOT}target`;
-    const program = ["debug", "release"].map((profile) => `${folder}/${profile}/tautline`).find(existsSync);
-    assert.ok(program, "no native program to compare with: run cargo build first");
-    const input = JSON.stringify(scenario);
-    return JSON.parse(execFileSync(program, ["analyze", "-", "--json"], { input, encoding: "utf8", maxBuffer: 1e8 }));
-}
 
 const studies = (page) => page.evaluate(() => window.tautline.studies());
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
