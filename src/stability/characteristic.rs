@@ -10,6 +10,7 @@
 
 use nalgebra::{Complex, Matrix2};
 
+use super::axis::Quadratic;
 use super::jet::{Jet, Number, Pair, Planar, Real};
 use crate::mechanics::{Chain, Element, Hub, Vibration};
 
@@ -119,23 +120,10 @@ impl Characteristic {
         let point = Point::new(self.alpha, self.beta, lambda, speed);
         let mut total = Total::default();
         match &self.kind {
-            Kind::Scalar { sides, hub } => {
-                let mut platform = point.sum(hub);
-                for SideBySide { nodes, cables } in sides {
-                    let mut product = Product::default();
-                    let mut outer = Jet::default();
-                    for node in nodes {
-                        let inverse = product.take(point.sum(&node.own) - outer);
-                        outer = point.sum(&node.inward) * point.sum(&node.outward) * inverse;
-                    }
-                    for lane in 0..*cables {
-                        platform = platform - outer.lane(lane);
-                        total.multiply(&product.lane(lane));
-                    }
-                }
-                if let Some(mass) = self.platform {
-                    total.take(platform + point.mass * mass);
-                }
+            Kind::Scalar { sides, .. } => {
+                let mut nodes = sides.iter().flat_map(|side| &side.nodes);
+                let entries = |node: &Node| [point.sum(&node.own), point.sum(&node.inward) * point.sum(&node.outward)];
+                return self.scalar_at(lambda, speed, || nodes.next().map(entries));
             }
             Kind::Planar { sides, hub } => {
                 let mut platform = point.planar(hub);
@@ -161,6 +149,57 @@ impl Characteristic {
                     total.take(platform.determinant());
                 }
             }
+        }
+        total.finish()
+    }
+
+    /// How many nodes the scalar problem has, two cables' nodes counted as one; 0 for the planar problem.
+    pub(super) fn scalar_nodes(&self) -> usize {
+        match &self.kind {
+            Kind::Scalar { sides, .. } => sides.iter().map(|side| side.nodes.len()).sum(),
+            Kind::Planar { .. } => 0,
+        }
+    }
+
+    /// The scalar problem's own entries and couplings to and fro at a speed, node after node; none for the planar one.
+    pub(super) fn scalar_entries(&self, speed: f64) -> impl Iterator<Item = [Quadratic; 3]> {
+        let sides = match &self.kind {
+            Kind::Scalar { sides, .. } => sides.as_slice(),
+            Kind::Planar { .. } => &[],
+        };
+        let quadratic = move |&Sum { entry: Entry { mass, transfer, flow }, elastic }: &Sum<Pair>| Quadratic {
+            value: [elastic + flow * (speed * speed), mass * self.alpha + transfer * speed + elastic * self.beta, mass],
+            by_speed: [flow * (2.0 * speed), transfer],
+        };
+        let all = sides.iter().flat_map(|side| &side.nodes);
+        all.map(move |node| [&node.own, &node.inward, &node.outward].map(quadratic))
+    }
+
+    /// The scalar problem's value, from its nodes' own entries and products of couplings, in their order.
+    #[inline]
+    pub(super) fn scalar_at(
+        &self,
+        lambda: C64,
+        speed: f64,
+        mut next: impl FnMut() -> Option<[Jet<Pair>; 2]>,
+    ) -> LogDeterminant {
+        let point = Point::new(self.alpha, self.beta, lambda, speed);
+        let mut total = Total::default();
+        let Kind::Scalar { sides, hub } = &self.kind else { return total.finish() };
+        let mut platform = point.sum(hub);
+        for SideBySide { nodes, cables } in sides {
+            let mut product = Product::default();
+            let mut outer = Jet::default();
+            for [own, coupling] in (0..nodes.len()).map_while(|_| next()) {
+                outer = coupling * product.take(own - outer);
+            }
+            for lane in 0..*cables {
+                platform = platform - outer.lane(lane);
+                total.multiply(&product.lane(lane));
+            }
+        }
+        if let Some(mass) = self.platform {
+            total.take(platform + point.mass * mass);
         }
         total.finish()
     }

@@ -9,6 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::Complex;
 
+use super::axis::Axis;
 use super::bounds::Bounds;
 use super::characteristic::Characteristic;
 use crate::mechanics::Vibration;
@@ -33,14 +34,15 @@ const ROUNDING: f64 = 1e-3;
 /// told: one of them is on the axis, the effort would be too great, or the bounds do not hold.
 pub fn unstable_eigenvalues(vibration: &Vibration, speed: f64) -> Option<usize> {
     let bounds = Bounds::new(vibration)?;
-    let distinct = count(&Characteristic::new(vibration), &bounds, speed)?;
+    let function = Characteristic::new(vibration);
+    let distinct = count(&mut Axis::new(&function), &bounds, speed)?;
     Some(if vibration.isotropic { 2 * distinct } else { distinct })
 }
 
 /// The same of one direction where the problem is isotropic.
-pub(super) fn count(function: &Characteristic, bounds: &Bounds, speed: f64) -> Option<usize> {
+pub(super) fn count(axis: &mut Axis, bounds: &Bounds, speed: f64) -> Option<usize> {
     let radius = bounds.largest_unstable(speed);
-    let mut path = Path { function, speed, evaluations: 0 };
+    let mut path = Path { axis, speed, evaluations: 0 };
     let steps = (radius * bounds.frequency_density() / LARGEST_STEP).ceil().max(1.0);
     if steps.is_nan() || steps > LARGEST_EFFORT as f64 {
         return None;
@@ -76,16 +78,16 @@ struct Point {
     slope: C64,
 }
 
-struct Path<'a> {
-    function: &'a Characteristic,
+struct Path<'a, 'f> {
+    axis: &'a mut Axis<'f>,
     speed: f64,
     evaluations: usize,
 }
 
-impl Path<'_> {
+impl Path<'_, '_> {
     fn at(&mut self, lambda: C64) -> Point {
         self.evaluations += 1;
-        let value = self.function.at(lambda, self.speed);
+        let value = self.axis.at(lambda, self.speed);
         Point { lambda, log: value.log, slope: value.by_lambda }
     }
 

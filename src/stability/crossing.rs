@@ -10,6 +10,7 @@ use std::collections::HashMap;
 
 use nalgebra::Complex;
 
+use super::axis::Axis;
 use super::bounds::Bounds;
 use super::characteristic::Characteristic;
 use super::count::{change, count};
@@ -54,7 +55,7 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
     let Some(bounds) = Bounds::new(vibration) else { return Search::Doubt };
     let function = Characteristic::new(vibration);
     let mut plane = Plane {
-        function: &function,
+        axis: Axis::new(&function),
         bounds: &bounds,
         known: HashMap::new(),
         trend: Trend::default(),
@@ -80,10 +81,10 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
             return Search::Doubt;
         }
 
-        if let Some(zero) = plane.first_from(from).filter(|zero| zero.speed <= to) {
+        if let Some(zero) = plane.first_from(from).copied().filter(|zero| zero.speed <= to) {
             // What crosses first crosses to the right: d Re λ/dv = Im b. Below it nothing is unstable.
             let below = (zero.speed - BELOW * STRIP).max(0.5 * zero.speed);
-            let sound = zero.slope.im > 0.0 && count(&function, &bounds, below) == Some(0);
+            let sound = zero.slope.im > 0.0 && count(&mut plane.axis, &bounds, below) == Some(0);
             return if sound { Search::Crossing { omega: zero.omega, speed: zero.speed } } else { Search::Doubt };
         }
         let missed = |zero: &Zero| zero.speed > 0.0 && zero.speed < from;
@@ -92,10 +93,10 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
         }
         from = to;
     }
-    if count(&function, &bounds, limit) == Some(0) { Search::NoneUpTo } else { Search::Doubt }
+    if count(&mut plane.axis, &bounds, limit) == Some(0) { Search::NoneUpTo } else { Search::Doubt }
 }
 
-/// det Q(iω, v) at one point of the plane.
+/// det Q(iω, v) at one point of the plane, with the strip's trend and zeros divided out.
 #[derive(Clone, Copy, Debug)]
 struct Corner {
     omega: f64,
@@ -103,6 +104,8 @@ struct Corner {
     log: C64,
     by_omega: C64,
     by_speed: C64,
+    /// So many of the zeros found are divided out.
+    zeros: usize,
 }
 
 /// A zero, near which D is a multiple of (ω − ω₀) + b (v − v₀), where b is the ratio of D's
@@ -162,7 +165,7 @@ impl Trend {
 
 /// The plane of ω and v with what has been found in it.
 struct Plane<'a> {
-    function: &'a Characteristic,
+    axis: Axis<'a>,
     bounds: &'a Bounds,
     /// The corners of the strip, which neighbouring cells share, by the bits of ω and v.
     known: HashMap<[u64; 2], Corner>,
@@ -185,49 +188,56 @@ impl Plane<'_> {
     /// Finds all zeros below the first one between two speeds; `None` in doubt.
     fn search(&mut self, from: f64, to: f64, top: f64) -> Option<()> {
         let mut left = [self.corner(0.0, from), self.corner(0.0, to)];
-        let mut cells = Vec::new();
         let mut omega = 0.0;
-        let mut first = self.first_from(from).map_or(f64::INFINITY, |zero| zero.speed);
         while omega < top {
             omega += self.cell[0].max(self.bounds.decay(omega));
             let right = [self.corner(omega, from), self.corner(omega, to)];
-            cells.push(Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] });
-            while let Some(cell) = cells.pop() {
-                if first <= cell.lower[0].speed || !self.is_eligible(&cell) {
-                    continue;
-                }
-                let changes = self.changes(&cell);
-                if changes[0] <= 1.0 && changes[1] <= 1.0 {
-                    continue;
-                }
-                if let Some(zero) = self.zero_in(&cell) {
-                    self.zeros.push(zero);
-                    first = self.first_from(from).map_or(f64::INFINITY, |zero| zero.speed);
-                    cells.push(cell);
-                    continue;
-                }
-                let [first, second] = self.halves(&cell, changes);
-                let size = cell.size();
-                let vanishing = size[0] < SMALLEST_CELL * self.cell[0] || size[1] < SMALLEST_CELL * self.cell[1];
-                if vanishing || self.evaluations > LARGEST_EFFORT {
-                    return None;
-                }
-                cells.extend([second, first]);
-            }
+            self.search_cell(from, &mut Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] })?;
             left = right;
         }
         Some(())
     }
 
-    /// D at a point.
+    /// The same in one cell of the strip.
+    fn search_cell(&mut self, from: f64, cell: &mut Cell) -> Option<()> {
+        loop {
+            let after_the_first = self.first_from(from).is_some_and(|first| first.speed <= cell.lower[0].speed);
+            if after_the_first || !self.is_eligible(cell) {
+                return Some(());
+            }
+            cell.lower.iter_mut().chain(&mut cell.upper).for_each(|corner| self.divide_zeros_out(corner));
+            let changes = self.changes(cell);
+            if changes[0] <= 1.0 && changes[1] <= 1.0 {
+                return Some(());
+            }
+            if let Some(zero) = self.zero_in(cell) {
+                self.zeros.push(zero);
+                continue;
+            }
+            let size = cell.size();
+            let vanishing = size[0] < SMALLEST_CELL * self.cell[0] || size[1] < SMALLEST_CELL * self.cell[1];
+            if vanishing || self.evaluations > LARGEST_EFFORT {
+                return None;
+            }
+            let [mut first, mut second] = self.halves(cell, changes);
+            self.search_cell(from, &mut first)?;
+            return self.search_cell(from, &mut second);
+        }
+    }
+
+    /// D at a point, with the trend and all zeros found divided out.
     fn at(&mut self, omega: f64, speed: f64) -> Corner {
         self.evaluations += 1;
         let i = C64::new(0.0, 1.0);
-        let value = self.function.at(i * omega, speed);
-        Corner { omega, speed, log: value.log, by_omega: i * value.by_lambda, by_speed: value.by_speed }
+        let value = self.axis.at(i * omega, speed);
+        let [trend, slope] = self.trend.at(speed);
+        let (log, by_omega, by_speed) = (value.log - trend, i * value.by_lambda, value.by_speed - slope);
+        let mut corner = Corner { omega, speed, log, by_omega, by_speed, zeros: 0 };
+        self.divide_zeros_out(&mut corner);
+        corner
     }
 
-    /// D at a corner of cells.
+    /// The same at a corner of cells.
     fn corner(&mut self, omega: f64, speed: f64) -> Corner {
         let key = [omega.to_bits(), speed.to_bits()];
         if let Some(corner) = self.known.get(&key) {
@@ -240,36 +250,41 @@ impl Plane<'_> {
 
     /// Goes on to the strip between two speeds with crossings below the frequency `top`.
     fn follow_trend(&mut self, from: f64, to: f64, top: f64) {
-        self.known.retain(|&[_, speed], _| speed == from.to_bits());
         // To the right of the axis, further than what moves in the strip: nothing but the trend is left of it.
-        let [begin, end] = [from, to].map(|speed| self.function.at(top.into(), speed));
-        self.trend = Trend::between([from, to], [begin.log.re, end.log.re], [begin.by_speed.re, end.by_speed.re]);
+        let [begin, end] = [from, to].map(|speed| self.axis.at(top.into(), speed));
+        let trend = Trend::between([from, to], [begin.log.re, end.log.re], [begin.by_speed.re, end.by_speed.re]);
+        let ([before, slope_before], [after, slope_after]) = (self.trend.at(from), trend.at(from));
+        self.trend = trend;
+        self.known.retain(|&[_, speed], corner| {
+            corner.log += before - after;
+            corner.by_speed += slope_before - slope_after;
+            speed == from.to_bits()
+        });
     }
 
-    /// The corner with the trend and the zeros divided out.
-    fn without_zeros(&self, corner: &Corner) -> Corner {
-        let mut corner = *corner;
-        let [trend, by_speed] = self.trend.at(corner.speed);
-        corner.log -= trend;
-        corner.by_speed -= by_speed;
-        for zero in &self.zeros {
-            for (factor, slope) in zero.factors(corner.omega, corner.speed) {
-                corner.log -= C64::new(0.5 * factor.norm_sqr().ln(), factor.arg());
-                corner.by_omega -= factor.inv();
-                corner.by_speed -= slope / factor;
-            }
+    /// Divides those zeros out of a corner that were found since it was computed.
+    fn divide_zeros_out(&self, corner: &mut Corner) {
+        let new = &self.zeros[corner.zeros..];
+        if new.is_empty() {
+            return;
         }
-        corner
+        let mut product = C64::new(1.0, 0.0);
+        for (factor, slope) in new.iter().flat_map(|zero| zero.factors(corner.omega, corner.speed)) {
+            let inverse = factor.conj() / factor.norm_sqr();
+            product *= factor;
+            corner.by_omega -= inverse;
+            corner.by_speed -= slope * inverse;
+        }
+        corner.log -= C64::new(0.5 * product.norm_sqr().ln(), product.arg());
+        corner.zeros = self.zeros.len();
     }
 
     /// How far the edges are from being free of zeros, in ω and in v: at most one where they are. Infinite in v where the
     /// cell is too tall to tell.
     fn changes(&self, cell: &Cell) -> [f64; 2] {
-        let [a, b] = cell.lower.map(|corner| self.without_zeros(&corner));
-        let [c, d] = cell.upper.map(|corner| self.without_zeros(&corner));
-        let size = cell.size();
-        let in_omega = |a: Corner, b: Corner| change(b.log - a.log, a.by_omega * size[0], b.by_omega * size[0]);
-        let in_speed = |a: Corner, b: Corner| change(b.log - a.log, a.by_speed * size[1], b.by_speed * size[1]);
+        let (Cell { lower: [a, b], upper: [c, d] }, size) = (cell, cell.size());
+        let in_omega = |a: &Corner, b: &Corner| change(b.log - a.log, a.by_omega * size[0], b.by_omega * size[0]);
+        let in_speed = |a: &Corner, b: &Corner| change(b.log - a.log, a.by_speed * size[1], b.by_speed * size[1]);
         let tall = if self.is_tall(cell) { f64::INFINITY } else { 0.0 };
         [in_omega(a, b).max(in_omega(c, d)), in_speed(a, c).max(in_speed(b, d)).max(tall)]
     }
@@ -304,14 +319,14 @@ impl Plane<'_> {
     fn zero_in(&mut self, cell: &Cell) -> Option<Zero> {
         let corners = [cell.lower[0], cell.lower[1], cell.upper[0], cell.upper[1]];
         let start = corners.iter().find_map(|corner| {
-            let [omega, speed] = newton_step(&self.without_zeros(corner))?;
+            let [omega, speed] = newton_step(corner)?;
             let (omega, speed) = (corner.omega + omega, corner.speed + speed);
             cell.is_near(omega, speed).then_some((omega, speed))
         })?;
         let (mut omega, mut speed) = start;
         for _ in 0..NEWTON_STEPS {
             let here = self.at(omega, speed);
-            let [d_omega, d_speed] = newton_step(&self.without_zeros(&here))?;
+            let [d_omega, d_speed] = newton_step(&here)?;
             (omega, speed) = (omega + d_omega, speed + d_speed);
             if !cell.is_near(omega, speed) {
                 return None;
@@ -344,12 +359,12 @@ impl Cell {
         [self.lower[1].omega - self.lower[0].omega, self.upper[0].speed - self.lower[0].speed]
     }
 
-    /// Whether a point is in the cell, or no further from it than its size.
+    /// Whether a point is in the cell, or no further from it than half its size.
     fn is_near(&self, omega: f64, speed: f64) -> bool {
         let [width, height] = self.size();
         let (from, to) = (&self.lower[0], &self.upper[1]);
-        (from.omega - width..=to.omega + width).contains(&omega)
-            && (from.speed - height..=to.speed + height).contains(&speed)
+        (from.omega - 0.5 * width..=to.omega + 0.5 * width).contains(&omega)
+            && (from.speed - 0.5 * height..=to.speed + 0.5 * height).contains(&speed)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Eigenvalues, mode shapes and the critical speed of a [`crate::mechanics::Vibration`].
 
 mod aberth;
+mod axis;
 mod bounds;
 mod characteristic;
 mod count;
