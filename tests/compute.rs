@@ -127,6 +127,35 @@ fn an_infeasible_pose_is_a_complete_answer_with_what_can_be_drawn() {
     assert_eq!(drawn, [false, false, true, true], "the stiffening cables have a shape");
 }
 
+/// With 200 elements and tangent stiffness eigenvalues crowd beyond double precision (docs/theory.md section 11); the
+/// rest of the answer does not need them. Between 80 elements and the limit the critical speed changes little.
+#[test]
+fn without_eigenvalues_the_pose_and_the_critical_speed_are_answered_all_the_same() {
+    let mut scenario = Scenario { linearisation: Linearisation::Tangent, ..paper_at(0.0) };
+    scenario.elements_per_cable = 200;
+    let mut engine = Engine::default();
+    engine.submit(job(3, &scenario, CRITICAL));
+    let (mut pose, mut critical, mut shape, mut curve) = (None, None, None, None);
+    for Reply { update, .. } in finish(&mut engine) {
+        match update {
+            Update::Pose(answer) => pose = Some(answer),
+            Update::Critical(answer) => critical = answer.critical,
+            Update::Shape(answer) => shape = Some(answer),
+            Update::Curve(points) => curve = Some(points),
+            _ => {}
+        }
+    }
+    let pose = pose.expect("a pose");
+    assert!(pose.modes.is_empty() && pose.report.eigenvalues.is_empty(), "{} modes", pose.modes.len());
+    assert_eq!((pose.report.stable, pose.report.cables.len()), (Some(true), 4));
+    assert_eq!(pose.report.reason.as_deref(), Some("The eigenvalues could not be computed."));
+    let speed = critical.expect("a critical speed").speed;
+    let coarser = cold(&Scenario { elements_per_cable: 80, ..scenario }).critical.expect("a critical speed").speed;
+    assert!((speed - coarser).abs() < 2e-3 * coarser, "{speed}, with 80 elements {coarser}");
+    assert!(shape.expect("the critical mode's shape").is_critical);
+    assert_eq!(curve, Some(Vec::new()));
+}
+
 #[test]
 fn a_broken_scenario_is_told_not_fatal() {
     let mut engine = Engine::default();

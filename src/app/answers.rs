@@ -102,9 +102,10 @@ impl Answers {
         self.failed.as_ref().map(|(_, failed)| failed)
     }
 
-    /// The newest mode shape, where the pose can be drawn.
+    /// The newest mode shape, where the pose can be drawn and has such modes.
     pub fn shape(&self) -> Option<&ModeShape> {
-        self.pose().and(self.shape.as_ref()).map(|(_, shape)| shape)
+        let pose = self.pose()?;
+        self.shape.as_ref().map(|(_, shape)| shape).filter(|shape| shape.is_critical || !pose.modes.is_empty())
     }
 
     /// The critical speed on show.

@@ -43,8 +43,6 @@ pub struct Tautline {
     compute: Option<Compute>,
     studies: Studies,
     pool: Pool,
-    /// The document has changed since the pointer was pressed: a drag, which has priority over studies.
-    dragging: bool,
     /// Whether the plots were drawn in the last frame; a narrow screen may not show them.
     plots_open: bool,
     /// Pictures made of studies, kept from frame to frame.
@@ -93,7 +91,6 @@ impl Tautline {
             compute,
             studies: Studies::default(),
             pool,
-            dragging: false,
             plots_open: false,
             layer: canvas::map::Layer::default(),
             joined: panels::campbell::Modes::default(),
@@ -184,7 +181,6 @@ impl Tautline {
         self.notice = None;
         if scenario != self.document.scenario {
             self.document.scenario = scenario;
-            self.dragging = true;
             self.analyze();
         }
     }
@@ -205,10 +201,9 @@ impl Tautline {
         let wishes = studies::wanted(&self.document.scenario, &self.state, plot, critical);
         let orders = self.studies.want(wishes);
         self.carry_out(orders);
-        // Both want all of the machine; who drags must not wait.
-        self.dragging &= context.input(|input| input.pointer.any_down());
-        let engine_at_work = matches!(self.answers.critical(), CriticalState::Recomputing { .. });
-        self.pool.hold(self.dragging || engine_at_work);
+        // Both want all of the machine; who drags must not wait. Between two poses the studies go on, so that the line
+        // follows the drag.
+        self.pool.hold(matches!(self.answers.critical(), CriticalState::Recomputing { .. }));
         for news in self.pool.poll() {
             self.studies.take(news);
         }

@@ -34,6 +34,9 @@ const CURVE_MARGIN: f64 = 1.3;
 /// The curve's points where the search has left none, and beyond those that it has left.
 const CURVE_POINTS: u32 = 60;
 const CURVE_POINTS_BEYOND: u32 = 24;
+/// A curve is to take about so long: on fine meshes it has fewer points, but at least some.
+const CURVE_TIME: Duration = Duration::from_secs(2);
+const LEAST_CURVE_POINTS: u32 = 8;
 
 /// Serves requests in slices. Feed it with [`Engine::submit`], then call [`Engine::work`] until it returns `None`.
 #[derive(Default)]
@@ -55,7 +58,12 @@ struct Pose {
     revision: Revision,
     local: Local,
     motion: Motion,
-    spectrum: Spectrum,
+    /// At today's speed, where it could be computed.
+    spectrum: Option<Spectrum>,
+    /// How long that took.
+    effort: Duration,
+    /// What is known before the critical speed.
+    report: Report,
     choice: ModeChoice,
     limit: f64,
     submitted: Instant,
@@ -148,8 +156,11 @@ impl Stage {
     }
 
     /// The curve of growth rates up to the speed `to`, of which a scan has left the `points` up to the speed `from`.
-    fn curve(points: Vec<[f64; 2]>, from: f64, to: f64) -> Self {
-        let (next, last) = if points.is_empty() { (0, CURVE_POINTS) } else { (1, CURVE_POINTS_BEYOND) };
+    /// One of its points takes about the time `effort`.
+    fn curve(points: Vec<[f64; 2]>, from: f64, to: f64, effort: Duration) -> Self {
+        let (next, most) = if points.is_empty() { (0, CURVE_POINTS) } else { (1, CURVE_POINTS_BEYOND) };
+        let affordable = CURVE_TIME.as_micros() / effort.as_micros().max(1);
+        let last = u32::try_from(affordable).unwrap_or(most).clamp(LEAST_CURVE_POINTS, most);
         Self::Curve { from, next, to, last, points, since: Instant::now() }
     }
 }
@@ -170,10 +181,12 @@ impl Pose {
                 ..failed(failure_sentence(&failure), motion.speed())
             })
         })?;
-        let spectrum = local.spectrum(motion.speed());
-        let spectrum = spectrum.map_err(|error| Box::new(failed(sentence(&error.to_string()), motion.speed())))?;
+        let begun = Instant::now();
+        let spectrum = local.spectrum(motion.speed()).ok();
         Ok(Self {
             revision: job.revision,
+            effort: begun.elapsed(),
+            report: Report::of_pose(&local, motion.speed(), spectrum.as_ref()),
             local,
             motion,
             spectrum,
@@ -190,7 +203,7 @@ impl Pose {
     }
 
     fn answer(&self) -> PoseAnswer {
-        let modes = self.spectrum.modes().map(|value| {
+        let modes = self.spectrum.iter().flat_map(Spectrum::modes).map(|value| {
             let mode = self.mode(self.motion.speed(), value.eigenvalue);
             ModeRow {
                 eigenvalue: [value.eigenvalue.re, value.eigenvalue.im],
@@ -202,7 +215,7 @@ impl Pose {
             }
         });
         PoseAnswer {
-            report: Report::new(&self.local, &self.spectrum),
+            report: self.report.clone(),
             axial_forces: self.local.statics.cables.iter().map(axial_forces).collect(),
             modes: modes.collect(),
         }
@@ -219,12 +232,13 @@ impl Pose {
             let mode = self.mode(critical.speed, critical.eigenvalue);
             return Some(self.reply(Update::Shape(Box::new(ModeShape::new(&mode, critical.speed, true)))));
         }
+        let spectrum = self.spectrum.as_ref()?;
         let wanted = match self.choice.which {
-            Which::Critical => self.spectrum.rightmost(),
+            Which::Critical => spectrum.rightmost(),
             Which::Near([re, im]) => Complex::new(re, im.abs()),
         };
         let distance = |l: &Complex<f64>| (l - wanted).norm_sqr();
-        let modes = self.spectrum.modes().map(|mode| mode.eigenvalue);
+        let modes = spectrum.modes().map(|mode| mode.eigenvalue);
         let nearest = modes.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let speed = self.motion.speed();
         Some(self.reply(Update::Shape(Box::new(ModeShape::new(&self.mode(speed, nearest), speed, false)))))
@@ -269,7 +283,7 @@ impl Pose {
                 };
                 let scan: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
                 let scanned = search.searched_up_to();
-                let mut report = Report::new(&self.local, &self.spectrum);
+                let mut report = self.report.clone();
                 report.set_critical(&outcome, self.limit);
                 let mut replies = vec![self.reply(Update::Critical(CriticalAnswer {
                     critical: report.critical,
@@ -284,7 +298,13 @@ impl Pose {
                 if self.choice.which == Which::Critical {
                     replies.extend(self.shape());
                 }
-                self.stage = Stage::curve(scan, scanned, end);
+                self.stage = if self.spectrum.is_some() {
+                    Stage::curve(scan, scanned, end, self.effort)
+                } else {
+                    // Nor would the eigenvalues be found at other speeds.
+                    replies.push(self.reply(Update::Curve(Vec::new())));
+                    Stage::Done
+                };
                 Ok(replies)
             }
             Stage::Curve { from, next, to, last, points, .. } => {

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError};
 use crate::robot::{Motion, Robot};
-use crate::stability::{Critical, CriticalSearch, Eigenproblem, Kind, Method, Outcome, Spectrum, unstable_eigenvalues};
+use crate::stability::{
+    Critical, CriticalSearch, Eigenproblem, Kind, Method, NotConverged, Outcome, Spectrum, unstable_eigenvalues,
+};
 use crate::study::Local;
 
 /// The name and version of the format.
@@ -102,13 +104,21 @@ impl From<&Critical> for CriticalReport {
 }
 
 impl Report {
-    /// The report of a pose whose critical speed is not known yet: [`Self::set_critical`] completes it.
-    pub fn new(local: &Local, spectrum: &Spectrum) -> Self {
+    /// The report of a pose moving at `speed` (m/s) whose critical speed is not known yet: [`Self::set_critical`]
+    /// completes it. Where the eigenvalues could not be computed all else stays, and stability is told by their count.
+    pub fn of_pose(local: &Local, speed: f64, spectrum: Option<&Spectrum>) -> Self {
+        let Some(spectrum) = spectrum else {
+            return Self {
+                reason: Some(sentence(&NotConverged.to_string())),
+                stable: unstable_eigenvalues(&local.vibration, speed).map(|count| count == 0),
+                ..Self::at_rest(local, speed)
+            };
+        };
         Self {
             eigenvalues: spectrum.eigenvalues().map(|Complex { re, im }| [re, im]).collect(),
             max_growth_rate: Some(spectrum.growth_rate()),
             stable: Some(spectrum.is_stable()),
-            ..Self::at_rest(local, spectrum.speed())
+            ..Self::at_rest(local, speed)
         }
     }
 
@@ -172,15 +182,7 @@ impl Report {
             Method::Structured => local.spectrum(speed),
             Method::Dense => Eigenproblem::new(&local.vibration).and_then(|problem| problem.spectrum(speed)),
         };
-        // What is known stays in the report, and the search goes on, whatever becomes of the eigenvalues.
-        let mut report = match spectrum {
-            Ok(spectrum) => Self::new(&local, &spectrum),
-            Err(error) => Self {
-                reason: Some(sentence(&error.to_string())),
-                stable: unstable_eigenvalues(&local.vibration, speed).map(|count| count == 0),
-                ..Self::at_rest(&local, speed)
-            },
-        };
+        let mut report = Self::of_pose(&local, speed, spectrum.as_ref().ok());
         let mut search = CriticalSearch::by(method, limit);
         loop {
             watch(search.searched_up_to());

@@ -83,12 +83,15 @@ fn figures(ui: &mut Ui, document: &Document, answers: &Answers, answer: &Critica
             .color(shade(theme::warning(&visuals)))
     };
     ui.label(today);
-    let stability = answers.pose().and_then(|pose| Some((pose.report.stable?, pose.report.max_growth_rate?)));
-    if let Some((stable, growth)) = stability {
+    let Some(pose) = answers.pose() else { return };
+    if let Some(stable) = pose.report.stable {
         let (word, colour) =
             if stable { ("Stable", theme::calm(&visuals)) } else { ("Unstable", theme::warning(&visuals)) };
         let pose_shade = if answers.pose_is_current() { colour } else { visuals.weak_text_color() };
-        let text = format!("{word} at today's speed: growth rate {growth:.4} 1/s");
-        ui.colored_label(pose_shade, text);
+        let growth = pose.report.max_growth_rate.map(|growth| format!(": growth rate {growth:.4} 1/s"));
+        ui.colored_label(pose_shade, format!("{word} at today's speed{}", growth.unwrap_or_default()));
+    }
+    if let Some(reason) = &pose.report.reason {
+        ui.weak(reason);
     }
 }

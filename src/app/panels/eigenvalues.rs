@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use eframe::egui::Ui;
 use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
 
-use super::{STALE, explain, near};
+use super::{STALE, explain, near, with_modes};
 use crate::app::answers::Answers;
 use crate::app::state::Command;
 use crate::app::theme;
@@ -16,10 +16,7 @@ const REACH: f32 = 24.0;
 
 /// Draws the plot.
 pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec<Command>) {
-    let Some(pose) = answers.pose() else {
-        ui.weak("No eigenvalues at this pose.");
-        return;
-    };
+    let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Right of the line a vibration grows. Click a point: its mode moves on the canvas."
     } else {

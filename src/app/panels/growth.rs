@@ -10,7 +10,8 @@ use crate::app::theme;
 
 /// Draws the plot.
 pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
-    let (Some(answer), Some((curve, current))) = (answers.last_critical(), answers.curve()) else {
+    let curve = answers.curve().filter(|(points, _)| !points.is_empty());
+    let (Some(answer), Some((curve, current))) = (answers.last_critical(), curve) else {
         ui.weak("No growth rates at this pose.");
         return;
     };

@@ -14,13 +14,23 @@ pub mod plots;
 use eframe::egui::{CollapsingHeader, Ui};
 use egui_plot::{GridInput, GridMark};
 
+use crate::app::answers::Answers;
 use crate::app::canvas;
 use crate::app::state::Command;
 use crate::app::studies::{Shown, Stage, Studies};
-use crate::compute::protocol::{ModeChoice, Topic, Which};
+use crate::compute::protocol::{ModeChoice, PoseAnswer, Topic, Which};
 
 /// Said over what belongs to an earlier state.
 const STALE: &str = "Being recomputed: this belongs to an earlier state.";
+
+/// The newest pose with its modes; where there are none, that and why.
+fn with_modes<'a>(ui: &mut Ui, answers: &'a Answers) -> Option<&'a PoseAnswer> {
+    let pose = answers.pose().filter(|pose| !pose.modes.is_empty());
+    if pose.is_none() {
+        ui.weak("No eigenvalues at this pose.");
+    }
+    pose
+}
 
 /// The mode choice that selects `eigenvalue`, keeping what else was chosen.
 fn near(choice: ModeChoice, eigenvalue: [f64; 2]) -> ModeChoice {

@@ -3,17 +3,14 @@
 use eframe::egui::{Label, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 
-use super::{STALE, explain, near};
+use super::{STALE, explain, near, with_modes};
 use crate::app::answers::Answers;
 use crate::app::state::Command;
 use crate::compute::protocol::ModeChoice;
 
 /// Draws the table.
 pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec<Command>) {
-    let Some(pose) = answers.pose() else {
-        ui.weak("No modes at this pose.");
-        return;
-    };
+    let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Modes at today's speed. ζ < 0 grows. The cable is the one with most of the kinetic energy."
     } else {
