@@ -1,5 +1,9 @@
 //! What the engine has answered so far, and how much of it is about the document as it is now.
 
+use std::collections::VecDeque;
+
+use web_time::Instant;
+
 use crate::compute::protocol::{CriticalAnswer, Failed, ModeShape, PoseAnswer, Reply, Revision, Update};
 use crate::scenario::Report;
 
@@ -16,6 +20,9 @@ pub struct Answers {
     complete: Option<(Revision, Report)>,
     searching: Option<f64>,
     broken: Option<String>,
+    /// When each revision whose answer is not complete was asked for.
+    asked: VecDeque<(Revision, Instant)>,
+    trail_ms: Option<f64>,
 }
 
 /// The critical speed on show.
@@ -41,6 +48,7 @@ impl Answers {
     pub fn expect(&mut self, revision: Revision) {
         self.revision = revision;
         self.searching = None;
+        self.asked.push_back((revision, Instant::now()));
     }
 
     /// Takes in a reply.
@@ -75,6 +83,16 @@ impl Answers {
             self.complete = Some((revision, report));
         }
         self.critical = Some((revision, answer));
+        while let Some((asked, at)) = self.asked.pop_front_if(|(asked, _)| *asked <= revision) {
+            if asked == revision {
+                self.trail_ms = Some(1e3 * at.elapsed().as_secs_f64());
+            }
+        }
+    }
+
+    /// How far the last complete answer was behind the document: from the edit that it answers until it was here, in ms.
+    pub fn trail_ms(&self) -> Option<f64> {
+        self.trail_ms
     }
 
     /// Marks the engine as not working.

@@ -124,6 +124,11 @@ impl Tautline {
         self.answers.shape().map(|shape| shape.eigenvalue)
     }
 
+    /// How far the last complete answer was behind the edit that it answers, in ms.
+    pub fn trail_ms(&self) -> Option<f64> {
+        self.answers.trail_ms()
+    }
+
     /// How far a study has come: places answered, all places, and whether it is finished.
     pub fn study(&self, topic: Topic) -> (usize, usize, bool) {
         let progress = self.studies.progress(topic);

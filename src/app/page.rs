@@ -39,6 +39,7 @@ struct Shared {
     asked: bool,
     map: Option<((Revision, usize), bool, String)>,
     analysis_ms: Option<f64>,
+    trail_ms: Option<f64>,
 }
 
 impl Page {
@@ -70,6 +71,7 @@ impl Page {
             shared.frames_ms.pop_front();
         }
         shared.publish_studies(studies);
+        shared.trail_ms = answers.trail_ms();
         shared.analysis_ms = answers.last_critical().map(|answer| answer.elapsed_ms);
         if let Some((report, revision, current)) = answers.complete()
             && shared.analysis_key != Some((revision, current))
@@ -193,6 +195,7 @@ fn interface(shared: &Rc<RefCell<Shared>>, context: &egui::Context) -> Object {
         let number = |value: Option<f64>| value.map_or(JsValue::NULL, JsValue::from_f64);
         let _ = Reflect::set(&timings, &"frame_ms".into(), &number(state.borrow().frame_ms));
         let _ = Reflect::set(&timings, &"analysis_ms".into(), &number(state.borrow().analysis_ms));
+        let _ = Reflect::set(&timings, &"trail_ms".into(), &number(state.borrow().trail_ms));
         let frames: Array = state.borrow().frames_ms.iter().map(|ms| JsValue::from_f64(*ms)).collect();
         let _ = Reflect::set(&timings, &"frames_ms".into(), &frames);
         JsValue::from(timings)
