@@ -2,8 +2,7 @@
 
 #[cfg(all(feature = "app", target_arch = "wasm32"))]
 fn main() {
-    use tautline::app::Tautline;
-    use tautline::scenario::presets;
+    use tautline::app::{Start, Tautline};
     use wasm_bindgen::JsCast as _;
 
     console_error_panic_hook::set_once();
@@ -17,7 +16,7 @@ fn main() {
     };
     wasm_bindgen_futures::spawn_local(async move {
         let create: eframe::AppCreator<'static> =
-            Box::new(|context| Ok(Box::new(Tautline::new(&context.egui_ctx, presets::PRESETS[0].scenario()))));
+            Box::new(|context| Ok(Box::new(Tautline::new(context, Start::default()))));
         if let Err(error) = eframe::WebRunner::new().start(canvas, eframe::WebOptions::default(), create).await {
             // The page hears of it and tells it.
             wasm_bindgen::throw_val(error);
@@ -27,13 +26,12 @@ fn main() {
 
 #[cfg(all(feature = "app", feature = "cli", not(target_arch = "wasm32")))]
 fn main() -> std::process::ExitCode {
-    use tautline::app::Tautline;
+    use tautline::app::{Start, Tautline};
     use tautline::cli;
-    use tautline::scenario::presets;
 
     let scenario = match cli::run() {
         cli::Start::Done(code) => return code,
-        cli::Start::App { scenario } => scenario.map_or_else(|| presets::PRESETS[0].scenario(), |scenario| *scenario),
+        cli::Start::App { scenario } => scenario.map(|scenario| *scenario),
     };
     // For pictures and tests; otherwise the system's theme counts.
     let theme = match std::env::var("TAUTLINE_THEME").unwrap_or_default().as_str() {
@@ -48,7 +46,7 @@ fn main() -> std::process::ExitCode {
         if let Some(theme) = theme {
             context.egui_ctx.set_theme(theme);
         }
-        Ok(Box::new(Tautline::new(&context.egui_ctx, scenario)))
+        Ok(Box::new(Tautline::new(context, Start { scenario })))
     });
     match eframe::run_native("Tautline", options, create) {
         Ok(()) => std::process::ExitCode::SUCCESS,

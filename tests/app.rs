@@ -8,7 +8,7 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Theme, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, Node};
-use tautline::app::Tautline;
+use tautline::app::{Start, Tautline};
 use tautline::compute::protocol::Topic;
 use tautline::robot::{Linearisation, Strain, TensionLaw};
 use tautline::scenario::{Report, Scenario, presets};
@@ -27,7 +27,7 @@ fn app_with(scenario: Scenario, size: Vec2, theme: Theme) -> Harness<'static, Ta
         .with_size(size)
         .with_theme(theme)
         .with_step_dt(1.0 / 60.0)
-        .build_eframe(|context| Tautline::new(&context.egui_ctx, scenario));
+        .build_eframe(|context| Tautline::new(context, Start { scenario: Some(scenario) }));
     settle(&mut app);
     app
 }

@@ -5,28 +5,41 @@
 //! takes in its replies.
 
 mod answers;
+mod apply;
 mod canvas;
+mod command;
+mod export;
 mod fields;
+mod files;
+mod history;
+mod menu;
 #[cfg(target_arch = "wasm32")]
 mod page;
 mod panels;
+mod persist;
 mod series;
 mod state;
 mod studies;
 mod theme;
+mod windows;
 
 use std::time::Duration;
 
-use eframe::egui::{self, CentralPanel, Panel, ScrollArea, Ui};
+use eframe::egui::{self, CentralPanel, Panel, Rect, ScrollArea, Ui};
 
 use answers::{Answers, CriticalState};
-use state::{Command, Document, Page, UiState};
+use command::Command;
+use files::Files;
+use history::History;
+use menu::Possible;
+use persist::Keeper;
+use state::{Document, Page, Settings, UiState};
 use studies::{Order, Studies};
 
 use crate::compute::protocol::{Job, Request, Revision, Topic, Update, Which};
 use crate::compute::{Compute, Pool};
 use crate::scenario::report::DEFAULT_MAX_SPEED;
-use crate::scenario::{Report, Scenario};
+use crate::scenario::{Report, Scenario, presets};
 
 /// Below this width, in points, the panels go under the canvas.
 const NARROW: f32 = 760.0;
@@ -36,23 +49,63 @@ const HEARTBEAT: Duration = Duration::from_millis(100);
 /// The application.
 pub struct Tautline {
     document: Document,
-    /// What values reset to.
-    original: Scenario,
+    history: History,
     state: UiState,
     answers: Answers,
     compute: Option<Compute>,
     studies: Studies,
     pool: Pool,
+    files: Files,
+    keeper: Keeper,
+    /// The settings that have been carried out; at first those of the system.
+    applied: Settings,
     /// Whether the plots were drawn in the last frame; a narrow screen may not show them.
     plots_open: bool,
+    /// Where things were drawn in the last frame, for pictures of them.
+    places: Places,
     /// Pictures made of studies, kept from frame to frame.
     layer: canvas::map::Layer,
     joined: panels::campbell::Modes,
     revision: Revision,
-    notice: Option<String>,
+    notice: Option<Notice>,
     commands: Vec<Command>,
     #[cfg(target_arch = "wasm32")]
     page: page::Page,
+}
+
+/// What panels read.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts<'a> {
+    /// What is edited.
+    pub document: &'a Document,
+    /// What is known of the pose.
+    pub answers: &'a Answers,
+    /// What is known of more than the pose.
+    pub studies: &'a Studies,
+    /// Units.
+    pub settings: Settings,
+}
+
+/// Where things are on the screen.
+#[derive(Clone, Copy, Debug)]
+struct Places {
+    canvas: Rect,
+    plot: Rect,
+}
+
+/// A line for the user.
+#[derive(Clone, Debug)]
+struct Notice {
+    text: String,
+    /// Something went wrong, or was refused.
+    fault: bool,
+}
+
+/// What is on show at the start.
+#[derive(Clone, Debug, Default)]
+pub struct Start {
+    /// This scenario, which must be physical, rather than that of the last time.
+    pub scenario: Option<Scenario>,
 }
 
 /// The analysis on show.
@@ -67,8 +120,10 @@ pub struct OnShow<'a> {
 }
 
 impl Tautline {
-    /// The application with `scenario`, which must be physical.
-    pub fn new(context: &egui::Context, scenario: Scenario) -> Self {
+    /// The application. Where it is not told what to show, it shows what it showed when it ended, else the paper's robot.
+    pub fn new(context: &eframe::CreationContext<'_>, start: Start) -> Self {
+        let storage = context.storage;
+        let context = &context.egui_ctx;
         theme::install_fonts(context);
         let (wake, wake_for_studies) = (context.clone(), context.clone());
         let mut answers = Answers::default();
@@ -83,15 +138,25 @@ impl Tautline {
         let mut pool = Pool::new(move || wake_for_studies.request_repaint());
         pool.hold(true);
         pool.prepare();
+        let last = storage.and_then(persist::document);
+        let document = start.scenario.map(Document::opened).or_else(|| last.clone());
+        let document = document.unwrap_or_else(|| Document::opened(presets::PRESETS[0].scenario()));
+        let mut history = History::new(last.as_ref().unwrap_or(&document));
+        // What was there the last time comes back with undo.
+        history.step(&document);
         let mut app = Self {
-            document: Document { scenario: scenario.clone() },
-            original: scenario,
-            state: UiState::default(),
+            keeper: Keeper::new(&document),
+            document,
+            history,
+            state: storage.and_then(persist::state).unwrap_or_default(),
             answers,
             compute,
             studies: Studies::default(),
             pool,
+            files: Files::default(),
+            applied: Settings::default(),
             plots_open: false,
+            places: Places { canvas: Rect::NOTHING, plot: Rect::NOTHING },
             layer: canvas::map::Layer::default(),
             joined: panels::campbell::Modes::default(),
             revision: 0,
@@ -114,9 +179,9 @@ impl Tautline {
         self.answers.complete().map(|(report, revision, current)| OnShow { report, revision, current })
     }
 
-    /// The message on the screen about input that was refused.
+    /// The message on the screen, such as that input was refused.
     pub fn notice(&self) -> Option<&str> {
-        self.notice.as_deref()
+        self.notice.as_ref().map(|notice| notice.text.as_str())
     }
 
     /// [Re λ, Im λ] of the mode whose shape is on the canvas, in 1/s.
@@ -154,42 +219,6 @@ impl Tautline {
         }
     }
 
-    fn apply(&mut self, command: Command) {
-        match command {
-            Command::Edit(scenario) => self.edit(*scenario),
-            Command::Load(scenario) => {
-                self.original = (*scenario).clone();
-                self.edit(*scenario);
-            }
-            Command::ChooseMode(choice) => {
-                self.state.mode = choice;
-                self.submit(&Request::Shape(choice));
-            }
-            Command::StopStudy(topic) => {
-                let order = self.studies.stop(topic);
-                self.carry_out(order);
-            }
-            Command::ResumeStudy(topic) => {
-                let order = self.studies.resume(topic);
-                self.carry_out(order);
-            }
-            Command::DismissNotice => self.notice = None,
-        }
-    }
-
-    /// Takes a scenario over, where it is physical; else says why not and keeps the last good one.
-    fn edit(&mut self, scenario: Scenario) {
-        if let Err(faults) = scenario.to_robot() {
-            self.notice = Some(faults.to_string());
-            return;
-        }
-        self.notice = None;
-        if scenario != self.document.scenario {
-            self.document.scenario = scenario;
-            self.analyze();
-        }
-    }
-
     fn carry_out(&mut self, orders: impl IntoIterator<Item = Order>) {
         for order in orders {
             match order {
@@ -200,7 +229,7 @@ impl Tautline {
     }
 
     /// Asks for the studies of what is open and takes in what is known of them.
-    fn study_on(&mut self, context: &egui::Context) {
+    fn study_on(&mut self) {
         let critical = self.answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.speed);
         let plot = self.plots_open.then_some(self.state.plot);
         let wishes = studies::wanted(&self.document.scenario, &self.state, plot, critical);
@@ -211,9 +240,6 @@ impl Tautline {
         self.pool.hold(matches!(self.answers.critical(), CriticalState::Recomputing { .. }));
         for news in self.pool.poll() {
             self.studies.take(news);
-        }
-        if self.studies.is_working() {
-            context.request_repaint_after(HEARTBEAT);
         }
     }
 
@@ -251,9 +277,10 @@ impl Tautline {
         let Some(notice) = &self.notice else { return };
         Panel::bottom("notice").show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
-                let colour = theme::warning(ui.visuals());
-                ui.colored_label(colour, "▲");
-                ui.label(notice);
+                if notice.fault {
+                    ui.colored_label(theme::warning(ui.visuals()), "▲");
+                }
+                ui.label(&notice.text);
                 if ui.small_button("Dismiss").clicked() {
                     self.commands.push(Command::DismissNotice);
                 }
@@ -264,12 +291,12 @@ impl Tautline {
     fn wide(&mut self, ui: &mut Ui) {
         Panel::left("controls").default_size(380.0).min_size(340.0).show(ui, |ui| {
             ScrollArea::vertical().show(ui, |ui| {
-                panels::controls::ui(ui, &self.document, &self.original, &mut self.commands);
+                self.controls(ui);
             });
         });
         Panel::right("answer").default_size(340.0).min_size(280.0).show(ui, |ui| {
             ui.add_space(6.0);
-            panels::answer::ui(ui, &self.document, &self.answers);
+            panels::answer::ui(ui, self.facts());
             ui.separator();
             self.plots(ui);
         });
@@ -283,7 +310,7 @@ impl Tautline {
         });
         CentralPanel::default().show(ui, |ui| {
             ScrollArea::vertical().show(ui, |ui| {
-                panels::answer::ui(ui, &self.document, &self.answers);
+                panels::answer::ui(ui, self.facts());
                 ui.separator();
                 ui.horizontal(|ui| {
                     ui.selectable_value(&mut self.state.page, Page::Controls, "Controls");
@@ -291,7 +318,7 @@ impl Tautline {
                 });
                 match self.state.page {
                     Page::Controls => {
-                        panels::controls::ui(ui, &self.document, &self.original, &mut self.commands);
+                        self.controls(ui);
                     }
                     Page::Plots => self.plots(ui),
                 }
@@ -299,35 +326,86 @@ impl Tautline {
         });
     }
 
+    fn facts(&self) -> Facts<'_> {
+        let Self { document, answers, studies, state, .. } = self;
+        Facts { document, answers, studies, settings: state.settings }
+    }
+
+    fn controls(&mut self, ui: &mut Ui) {
+        let mut commands = std::mem::take(&mut self.commands);
+        panels::controls::ui(ui, self.facts(), &mut commands);
+        self.commands = commands;
+    }
+
     fn plots(&mut self, ui: &mut Ui) {
         self.plots_open = true;
         let Self { joined, state, document, answers, studies, commands, .. } = self;
-        panels::plots::ui(joined, state, ui, document, answers, studies, commands);
+        let facts = Facts { document, answers, studies, settings: state.settings };
+        self.places.plot = panels::plots::ui(joined, state, ui, facts, commands);
     }
 
     fn canvas(&mut self, ui: &mut Ui) {
         let Self { layer, state, document, answers, studies, commands, .. } = self;
-        canvas::ui(layer, state, ui, document, answers, studies, commands);
+        let facts = Facts { document, answers, studies, settings: state.settings };
+        self.places.canvas = canvas::ui(layer, state, ui, facts, commands);
+    }
+
+    fn menu(&mut self, ui: &mut Ui) {
+        let possible = Possible {
+            undo: self.history.can_undo(&self.document),
+            redo: self.history.can_redo(&self.document),
+            reset: self.document.scenario != self.document.original,
+        };
+        menu::ui(ui, &mut self.state, possible, &mut self.commands);
+    }
+
+    /// Carries out what has changed in the settings.
+    fn apply_settings(&mut self, context: &egui::Context) {
+        let settings = self.state.settings;
+        if settings.theme != self.applied.theme {
+            theme::choose(context, settings.theme);
+        }
+        if settings.motion != self.applied.motion && settings.reduces_motion() {
+            self.state.playback.playing = false;
+            context.all_styles_mut(|style| style.animation_time = 0.0);
+        }
+        self.applied = settings;
+    }
+
+    /// Writes down what is to survive a restart.
+    fn keep(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
+        if let Some(storage) = frame.storage_mut()
+            && let Some(wait) = self.keeper.keep(storage, &self.document)
+        {
+            context.request_repaint_after(wait);
+        }
     }
 }
 
 impl eframe::App for Tautline {
     fn logic(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
+        menu::keys(context, &mut self.state, &mut self.commands);
+        self.commands.extend(self.files.poll(context));
         #[cfg(target_arch = "wasm32")]
         self.commands.extend(self.page.loaded().map(|scenario| Command::Load(Box::new(scenario))));
         for command in std::mem::take(&mut self.commands) {
-            self.apply(command);
+            self.apply(context, command);
         }
+        self.history.watch(context, &self.document);
         self.take_replies();
-        self.study_on(context);
+        self.study_on();
+        self.keep(context, frame);
+        if self.studies.is_working() {
+            context.request_repaint_after(HEARTBEAT);
+        }
         self.animate(context);
+        self.apply_settings(context);
         #[cfg(target_arch = "wasm32")]
         self.page.publish(&self.document.scenario, &self.answers, &self.studies, frame.info().cpu_usage);
-        #[cfg(not(target_arch = "wasm32"))]
-        let _ = frame;
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.menu(ui);
         self.notice_bar(ui);
         self.plots_open = false;
         if ui.available_width() < NARROW {
@@ -335,9 +413,19 @@ impl eframe::App for Tautline {
         } else {
             self.wide(ui);
         }
+        windows::ui(ui.ctx(), &mut self.state);
+        files::announce_drop(ui.ctx());
         // Commands are carried out before the next frame; without one nothing would be seen of them.
         if !self.commands.is_empty() {
             ui.ctx().request_repaint();
         }
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        persist::keep_state(storage, &self.state);
+    }
+
+    fn auto_save_interval(&self) -> Duration {
+        Duration::from_secs(2)
     }
 }

@@ -1,34 +1,30 @@
-//! The interface's own state: what is edited, how it is looked at, and what panels ask for.
+//! The interface's own state: what is edited and how it is looked at.
 
-use crate::compute::protocol::{ModeChoice, Topic, Which};
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use crate::compute::protocol::{ModeChoice, Which};
 use crate::scenario::Scenario;
 
-/// What the user edits. Everything else on the screen follows from it.
+/// What the user edits, with undo. Everything else on the screen follows from it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
     /// Always physical: an edit that is not is refused.
     pub scenario: Scenario,
+    /// What values reset to: the scenario as it was opened.
+    pub original: Scenario,
 }
 
-/// A wish of a panel, carried out between two frames.
-#[derive(Clone, Debug)]
-pub enum Command {
-    /// Put this scenario in the place of the present one, where it is physical.
-    Edit(Box<Scenario>),
-    /// Start from this scenario: values reset to what they are in it.
-    Load(Box<Scenario>),
-    /// Show another mode's shape.
-    ChooseMode(ModeChoice),
-    /// Stop a study; what is known of it stays.
-    StopStudy(Topic),
-    /// Go on with a study that was stopped.
-    ResumeStudy(Topic),
-    /// Take the notice off the screen.
-    DismissNotice,
+impl Document {
+    /// A scenario as it has just been opened.
+    pub fn opened(scenario: Scenario) -> Self {
+        Self { original: scenario.clone(), scenario }
+    }
 }
 
 /// The plots, one at a time.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Plot {
     /// Eigenvalues in the complex plane.
     #[default]
@@ -48,7 +44,7 @@ pub enum Plot {
 }
 
 /// What the map under the robot shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MapQuantity {
     /// The critical speed.
     #[default]
@@ -64,7 +60,7 @@ pub enum MapQuantity {
 }
 
 /// The map under the robot.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MapView {
     /// Whether it is switched on.
     pub on: bool,
@@ -75,7 +71,7 @@ pub struct MapView {
 }
 
 /// What a narrow screen shows below the canvas.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Page {
     /// Controls.
     #[default]
@@ -84,23 +80,137 @@ pub enum Page {
     Plots,
 }
 
-/// How the document is looked at.
-#[derive(Clone, Debug)]
+/// How the document is looked at. It survives a restart, but for what belongs to the moment.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(default)]
 pub struct UiState {
     /// The plot that is open.
     pub plot: Plot,
     /// What a narrow screen shows.
     pub page: Page,
     /// The mode whose shape is drawn.
+    #[serde(skip, default = "critical_mode")]
     pub mode: ModeChoice,
     /// The mode shape's movement.
     pub playback: Playback,
     /// The canvas's zoom and pan.
+    #[serde(skip)]
     pub camera: Camera,
     /// The map under the robot.
     pub map: MapView,
     /// Up to which frequency the Campbell diagram is drawn, in Hz.
     pub campbell_hz: f64,
+    /// What people choose once.
+    pub settings: Settings,
+    /// Windows over the page.
+    #[serde(skip)]
+    pub windows: Windows,
+}
+
+fn critical_mode() -> ModeChoice {
+    ModeChoice { which: Which::Critical, along_x: false }
+}
+
+/// Which windows are open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(clippy::struct_excessive_bools)] // One switch each; they know nothing of each other.
+pub struct Windows {
+    /// The settings.
+    pub settings: bool,
+    /// The keyboard shortcuts.
+    pub shortcuts: bool,
+    /// The theory.
+    pub theory: bool,
+    /// The checks of theory, computed anew.
+    pub validation: bool,
+}
+
+/// What people choose once.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Light, dark, or as the system.
+    pub theme: ThemeChoice,
+    /// How frequencies are written.
+    pub frequency: FrequencyUnit,
+    /// How stresses are written.
+    pub stress: StressUnit,
+    /// Whether nothing moves by itself.
+    pub motion: MotionChoice,
+}
+
+impl Settings {
+    /// Whether nothing may move by itself.
+    pub fn reduces_motion(self) -> bool {
+        match self.motion {
+            MotionChoice::System => system_reduces_motion(),
+            MotionChoice::Full => false,
+            MotionChoice::Reduced => true,
+        }
+    }
+
+    /// A frequency in the unit chosen, and that unit.
+    pub fn frequency(self, hertz: f64) -> (f64, &'static str) {
+        match self.frequency {
+            FrequencyUnit::Hertz => (hertz, "Hz"),
+            FrequencyUnit::RadiansPerSecond => (hertz * TAU, "rad/s"),
+        }
+    }
+}
+
+/// Whether the browser's user has asked for little movement; desktop systems do not tell.
+fn system_reduces_motion() -> bool {
+    #[cfg(target_arch = "wasm32")]
+    let reduced = web_sys::window()
+        .and_then(|window| window.match_media("(prefers-reduced-motion: reduce)").ok().flatten())
+        .is_some_and(|query| query.matches());
+    #[cfg(not(target_arch = "wasm32"))]
+    let reduced = false;
+    reduced
+}
+
+/// Light, dark, or as the system.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ThemeChoice {
+    /// As the system.
+    #[default]
+    System,
+    /// Dark on light.
+    Light,
+    /// Light on dark.
+    Dark,
+}
+
+/// How frequencies are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum FrequencyUnit {
+    /// In Hz.
+    #[default]
+    Hertz,
+    /// In rad/s.
+    RadiansPerSecond,
+}
+
+/// How stresses are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum StressUnit {
+    /// In MPa, that is N/mm².
+    #[default]
+    Megapascal,
+    /// In GPa.
+    Gigapascal,
+}
+
+/// Whether things may move by themselves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum MotionChoice {
+    /// As the system wishes, where it tells.
+    #[default]
+    System,
+    /// They may.
+    Full,
+    /// Nothing moves by itself.
+    Reduced,
 }
 
 impl Default for UiState {
@@ -108,17 +218,20 @@ impl Default for UiState {
         Self {
             plot: Plot::default(),
             page: Page::default(),
-            mode: ModeChoice { which: Which::Critical, along_x: false },
+            mode: critical_mode(),
             playback: Playback::default(),
             camera: Camera::default(),
             map: MapView::default(),
             campbell_hz: 5.0,
+            settings: Settings::default(),
+            windows: Windows::default(),
         }
     }
 }
 
 /// How the mode shape moves.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Playback {
     /// Whether time runs.
     pub playing: bool,
@@ -136,6 +249,17 @@ impl Default for Playback {
     }
 }
 
+impl Playback {
+    /// Phases in one oscillation when it is looked at step by step.
+    const STEPS: f64 = 24.0;
+
+    /// Stops, and goes on by so many steps.
+    pub fn step(&mut self, steps: f64) {
+        self.playing = false;
+        self.phase = (self.phase + steps * TAU / Self::STEPS).rem_euclid(TAU);
+    }
+}
+
 /// The canvas's zoom and pan: identity shows the whole robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
@@ -148,5 +272,12 @@ pub struct Camera {
 impl Default for Camera {
     fn default() -> Self {
         Self { zoom: 1.0, offset: [0.0, 0.0] }
+    }
+}
+
+impl Camera {
+    /// Zooms by a factor about the middle.
+    pub fn magnify(&mut self, factor: f64) {
+        self.zoom = (self.zoom * factor).clamp(0.2, 200.0);
     }
 }

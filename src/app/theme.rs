@@ -1,12 +1,23 @@
 //! Colours: one accent, a colour-blind-safe sequential map for values, and colours for classes.
 
-use eframe::egui::{Color32, Context, FontDefinitions, FontFamily, Visuals};
+use eframe::egui::{Color32, Context, FontDefinitions, FontFamily, ThemePreference, Visuals};
+
+use crate::app::state::ThemeChoice;
 
 /// Lets symbols such as ▲, ▶ and ↺ come from egui's monospaced font, since its proportional one has none.
 pub fn install_fonts(context: &Context) {
     let mut fonts = FontDefinitions::default();
     fonts.families.entry(FontFamily::Proportional).or_default().push("Hack".into());
     context.set_fonts(fonts);
+}
+
+/// Light or dark, as chosen.
+pub fn choose(context: &Context, choice: ThemeChoice) {
+    context.set_theme(match choice {
+        ThemeChoice::System => ThemePreference::System,
+        ThemeChoice::Light => ThemePreference::Light,
+        ThemeChoice::Dark => ThemePreference::Dark,
+    });
 }
 
 /// Nine stops of the viridis map (Smith and van der Walt, matplotlib, CC0), dark to light.

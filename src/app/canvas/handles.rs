@@ -7,7 +7,8 @@ use eframe::egui::{
 
 use super::paint::{ARROW_GAP, arrow_tip};
 use super::{Scene, View};
-use crate::app::state::{Camera, Command, Document};
+use crate::app::command::Command;
+use crate::app::state::{Camera, Document};
 use crate::app::theme;
 
 /// Size of what can be grabbed, in points; a finger needs this much.

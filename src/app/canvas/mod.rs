@@ -7,28 +7,26 @@ mod model;
 mod paint;
 mod view;
 
-use eframe::egui::{self, Sense, Ui};
+use eframe::egui::{self, Rect, Sense, Ui};
 
 pub use model::{Scene, frame, phase_advance};
 pub use paint::grid_step;
 pub use view::View;
 
-use crate::app::answers::Answers;
-use crate::app::series;
-use crate::app::state::{Command, Document, Plot, UiState};
-use crate::app::studies::Studies;
+use crate::app::command::Command;
+use crate::app::state::{Plot, UiState};
+use crate::app::{Facts, series};
 use crate::compute::protocol::Topic;
 
-/// Draws the canvas in all the room there is, and turns drags, clicks and keys into commands.
+/// Draws the canvas in all the room there is, and turns drags, clicks and keys into commands. Gives where it is.
 pub fn ui(
     layer: &mut map::Layer,
     state: &mut UiState,
     ui: &mut Ui,
-    document: &Document,
-    answers: &Answers,
-    studies: &Studies,
+    facts: Facts<'_>,
     commands: &mut Vec<Command>,
-) {
+) -> Rect {
+    let Facts { document, answers, studies, .. } = facts;
     let (rect, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Robot canvas"));
     let scene = Scene::new(&document.scenario, answers, &state.playback);
@@ -45,7 +43,7 @@ pub fn ui(
         paint::worst(&painter, ui.visuals(), &view, &scene, direction, speed);
     }
     if state.map.on {
-        map::point(ui, &painter, &background, &view, document, studies, commands);
+        map::point(ui, &painter, &background, &view, facts, commands);
     }
     handles::ui(ui, &painter, &view, &scene, document, commands);
     handles::camera(ui, &background, &view, &mut state.camera, !state.map.on);
@@ -55,4 +53,5 @@ pub fn ui(
         paint::legend(&painter, ui.visuals(), rect, &scene);
     }
     map::controls(ui, rect, state, studies, commands);
+    rect
 }

@@ -2,8 +2,8 @@
 
 use eframe::egui::{Label, RichText, Spinner, Ui};
 
-use crate::app::answers::{Answers, CriticalState};
-use crate::app::state::Document;
+use crate::app::Facts;
+use crate::app::answers::CriticalState;
 use crate::app::theme;
 use crate::compute::protocol::CriticalAnswer;
 use crate::scenario::report::KindReport;
@@ -15,13 +15,13 @@ const FROZEN_TIME: &str = "The critical speed of this method is where an eigenva
     whichever comes first.";
 
 /// Draws the answer.
-pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
+pub fn ui(ui: &mut Ui, facts: Facts<'_>) {
     let visuals = ui.visuals().clone();
     ui.horizontal(|ui| {
         ui.label(RichText::new("Critical speed").strong());
         ui.weak("(frozen-time criterion: what is it?)").on_hover_text(FROZEN_TIME);
     });
-    match answers.critical() {
+    match facts.answers.critical() {
         CriticalState::Broken(reason) => {
             ui.colored_label(theme::warning(&visuals), RichText::new("▲ The analysis does not run").size(20.0));
             ui.label(reason);
@@ -33,12 +33,12 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
             ui.weak("Drag the platform back, or change tensions or masses.");
         }
         CriticalState::Current(answer) => {
-            figures(ui, document, answers, answer, true);
+            figures(ui, facts, answer, true);
             ui.weak("Up to date");
         }
         CriticalState::Recomputing { last, searched_up_to } => {
             if let Some(answer) = last {
-                figures(ui, document, answers, answer, false);
+                figures(ui, facts, answer, false);
             } else {
                 ui.label(RichText::new("…").size(32.0));
             }
@@ -53,7 +53,7 @@ pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
     }
 }
 
-fn figures(ui: &mut Ui, document: &Document, answers: &Answers, answer: &CriticalAnswer, current: bool) {
+fn figures(ui: &mut Ui, Facts { document, answers, .. }: Facts<'_>, answer: &CriticalAnswer, current: bool) {
     let visuals = ui.visuals().clone();
     // An old figure is weak, and the line below says that it is being recomputed.
     let shade = |colour| if current { colour } else { visuals.weak_text_color() };

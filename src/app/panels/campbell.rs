@@ -7,10 +7,10 @@ use eframe::egui::{Id, Slider, Ui, Visuals};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoints, PlotUi, Points, VLine};
 
 use super::{explain, few_lines, study};
-use crate::app::answers::Answers;
+use crate::app::Facts;
+use crate::app::command::Command;
 use crate::app::series::{self, Piece};
-use crate::app::state::{Command, Document};
-use crate::app::studies::{Known, Shown, Studies};
+use crate::app::studies::{Known, Shown};
 use crate::app::theme;
 use crate::compute::protocol::{Revision, Topic};
 
@@ -47,9 +47,7 @@ pub fn ui(
     modes: &mut Modes,
     highest: &mut f64,
     ui: &mut Ui,
-    document: &Document,
-    answers: &Answers,
-    studies: &Studies,
+    Facts { document, answers, studies, .. }: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
     let Some(Shown { known, current }) = study(ui, Topic::Campbell, studies, commands) else { return };

@@ -5,9 +5,11 @@ use eframe::egui::{
     Ui, Vec2,
 };
 
+use crate::app::Facts;
 use crate::app::canvas;
+use crate::app::command::Command;
 use crate::app::fields::{self, Field};
-use crate::app::state::{Command, Document};
+use crate::app::state::Document;
 use crate::robot::{Linearisation, Strain, TensionLaw};
 use crate::scenario::{Scenario, presets};
 
@@ -15,7 +17,8 @@ use crate::scenario::{Scenario, presets};
 const LABEL: Vec2 = Vec2::new(130.0, 18.0);
 
 /// Draws the controls; a change becomes one command.
-pub fn ui(ui: &mut Ui, document: &Document, original: &Scenario, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { document, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+    let original = &document.original;
     let mut edited = document.scenario.clone();
     examples(ui, document, commands);
     let [x, y] = fields::position(canvas::frame(&document.scenario));

@@ -6,14 +6,15 @@ use eframe::egui::{Align2, RichText, Ui, Visuals};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text};
 
 use super::{explain, study};
+use crate::app::Facts;
+use crate::app::command::Command;
 use crate::app::series::{self, degrees};
-use crate::app::state::{Command, Document};
-use crate::app::studies::{Known, Shown, Studies};
+use crate::app::studies::{Known, Shown};
 use crate::app::theme;
 use crate::compute::protocol::{Topic, VerdictAnswer};
 
 /// Draws the diagram and what follows from it.
-pub fn ui(ui: &mut Ui, document: &Document, studies: &Studies, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let Some(Shown { known, current }) = study(ui, Topic::Polar, studies, commands) else { return };
     explain(
         ui,

@@ -6,8 +6,8 @@ use eframe::egui::Ui;
 use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
 
 use super::{STALE, explain, near, with_modes};
-use crate::app::answers::Answers;
-use crate::app::state::Command;
+use crate::app::Facts;
+use crate::app::command::Command;
 use crate::app::theme;
 use crate::compute::protocol::ModeChoice;
 
@@ -15,7 +15,7 @@ use crate::compute::protocol::ModeChoice;
 const REACH: f32 = 24.0;
 
 /// Draws the plot.
-pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { answers, .. }: Facts<'_>, choice: ModeChoice, commands: &mut Vec<Command>) {
     let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Right of the line a vibration grows. Click a point: its mode moves on the canvas."

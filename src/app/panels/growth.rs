@@ -4,12 +4,11 @@ use eframe::egui::Ui;
 use egui_plot::{Corner, HLine, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
 
 use super::{STALE, explain};
-use crate::app::answers::Answers;
-use crate::app::state::Document;
+use crate::app::Facts;
 use crate::app::theme;
 
 /// Draws the plot.
-pub fn ui(ui: &mut Ui, document: &Document, answers: &Answers) {
+pub fn ui(ui: &mut Ui, Facts { document, answers, .. }: Facts<'_>) {
     let curve = answers.curve().filter(|(points, _)| !points.is_empty());
     let (Some(answer), Some((curve, current))) = (answers.last_critical(), curve) else {
         ui.weak("No growth rates at this pose.");

@@ -4,9 +4,9 @@ use eframe::egui::{Id, Ui};
 use egui_plot::{HoverPosition, Line, LineStyle, Plot, PlotPoints, PlotUi, Points, Span, VLine};
 
 use super::{explain, few_lines, study};
+use crate::app::Facts;
+use crate::app::command::Command;
 use crate::app::series::Along;
-use crate::app::state::{Command, Document};
-use crate::app::studies::Studies;
 use crate::app::theme;
 use crate::compute::protocol::{Topic, VerdictAnswer};
 use crate::scenario::report::CriticalReport;
@@ -18,7 +18,7 @@ const AXIS: f32 = 46.0;
 type Value = fn(&CriticalReport) -> f64;
 
 /// Draws the two plots.
-pub fn ui(ui: &mut Ui, document: &Document, studies: &Studies, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let shown = study(ui, Topic::Line, studies, commands);
     let Some((along, current)) = shown.and_then(|shown| Some((Along::new(shown.known)?, shown.current))) else {
         return;

@@ -4,15 +4,16 @@ use eframe::egui::Ui;
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, Plot, PlotPoints, Points, VLine};
 
 use super::{explain, few_lines, study};
+use crate::app::Facts;
+use crate::app::command::Command;
 use crate::app::series::Meshes;
-use crate::app::state::{Command, Document};
-use crate::app::studies::{Shown, Studies};
+use crate::app::studies::Shown;
 use crate::app::theme;
 use crate::compute::protocol::Topic;
 use crate::study::convergence::{Convergence, Doubt, Extrapolation};
 
 /// Draws the plot.
-pub fn ui(ui: &mut Ui, document: &Document, studies: &Studies, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let Some(Shown { known, current }) = study(ui, Topic::Convergence, studies, commands) else { return };
     let today = document.scenario.elements_per_cable;
     let Some(meshes) = Meshes::new(known, today) else { return };

@@ -16,7 +16,7 @@ use egui_plot::{GridInput, GridMark};
 
 use crate::app::answers::Answers;
 use crate::app::canvas;
-use crate::app::state::Command;
+use crate::app::command::Command;
 use crate::app::studies::{Shown, Stage, Studies};
 use crate::compute::protocol::{ModeChoice, PoseAnswer, Topic, Which};
 

@@ -4,12 +4,12 @@ use eframe::egui::{Label, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 
 use super::{STALE, explain, near, with_modes};
-use crate::app::answers::Answers;
-use crate::app::state::Command;
+use crate::app::Facts;
+use crate::app::command::Command;
 use crate::compute::protocol::ModeChoice;
 
 /// Draws the table.
-pub fn ui(ui: &mut Ui, answers: &Answers, choice: ModeChoice, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { answers, .. }: Facts<'_>, choice: ModeChoice, commands: &mut Vec<Command>) {
     let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Modes at today's speed. ζ < 0 grows. The cable is the one with most of the kinetic energy."

@@ -1,11 +1,11 @@
 //! The tabs of plots and the mode shape's playback.
 
-use eframe::egui::{Slider, Ui};
+use eframe::egui::{Rect, Slider, Ui};
 
 use super::{campbell, directions, eigenvalues, growth, line, mesh, modes};
-use crate::app::answers::Answers;
-use crate::app::state::{Command, Document, Playback, Plot, UiState};
-use crate::app::studies::Studies;
+use crate::app::Facts;
+use crate::app::command::Command;
+use crate::app::state::{Playback, Plot, UiState};
 use crate::compute::protocol::{ModeChoice, Which};
 use crate::robot::Linearisation;
 
@@ -20,41 +20,38 @@ const TABS: [(Plot, &str); 7] = [
     (Plot::Mesh, "Mesh"),
 ];
 
-/// Draws the tabs, the open plot and the playback.
+/// Draws the tabs, the open plot and the playback. Gives where the plot is.
 pub fn ui(
     joined: &mut campbell::Modes,
     state: &mut UiState,
     ui: &mut Ui,
-    document: &Document,
-    answers: &Answers,
-    studies: &Studies,
+    facts: Facts<'_>,
     commands: &mut Vec<Command>,
-) {
-    playback(&mut state.playback, ui, document, answers, state.mode, commands);
+) -> Rect {
+    playback(&mut state.playback, ui, facts, state.mode, commands);
     ui.separator();
     ui.horizontal_wrapped(|ui| {
         for (plot, name) in TABS {
             ui.selectable_value(&mut state.plot, plot, name);
         }
     });
+    let top = ui.cursor().min;
     match state.plot {
-        Plot::Eigenvalues => eigenvalues::ui(ui, answers, state.mode, commands),
-        Plot::Growth => growth::ui(ui, document, answers),
-        Plot::Modes => modes::ui(ui, answers, state.mode, commands),
-        Plot::Line => line::ui(ui, document, studies, commands),
-        Plot::Directions => directions::ui(ui, document, studies, commands),
-        Plot::Campbell => {
-            campbell::ui(joined, &mut state.campbell_hz, ui, document, answers, studies, commands);
-        }
-        Plot::Mesh => mesh::ui(ui, document, studies, commands),
+        Plot::Eigenvalues => eigenvalues::ui(ui, facts, state.mode, commands),
+        Plot::Growth => growth::ui(ui, facts),
+        Plot::Modes => modes::ui(ui, facts, state.mode, commands),
+        Plot::Line => line::ui(ui, facts, commands),
+        Plot::Directions => directions::ui(ui, facts, commands),
+        Plot::Campbell => campbell::ui(joined, &mut state.campbell_hz, ui, facts, commands),
+        Plot::Mesh => mesh::ui(ui, facts, commands),
     }
+    Rect::from_min_max(top, ui.min_rect().max)
 }
 
 fn playback(
     playback: &mut Playback,
     ui: &mut Ui,
-    document: &Document,
-    answers: &Answers,
+    Facts { document, answers, .. }: Facts<'_>,
     choice: ModeChoice,
     commands: &mut Vec<Command>,
 ) {

@@ -13,9 +13,10 @@ pub use picture::Picture;
 
 use super::View;
 use super::handles::roundest;
-use crate::app::series;
-use crate::app::state::{Camera, Command, Document, MapQuantity, MapView, UiState};
+use crate::app::command::Command;
+use crate::app::state::{Camera, MapQuantity, MapView, UiState};
 use crate::app::studies::{Known, Shown, Stage, Studies};
+use crate::app::{Facts, series};
 use crate::compute::protocol::{
     AskedChoice, DirectionsChoice, PlaceAnswer, Revision, StudyChoice, Topic, VerdictAnswer,
 };
@@ -193,8 +194,7 @@ pub fn point(
     painter: &Painter,
     background: &Response,
     view: &View,
-    document: &Document,
-    studies: &Studies,
+    Facts { document, studies, .. }: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
     let Some(Shown { known, current }) = studies.shown(Topic::Map) else { return };

@@ -1,0 +1,130 @@
+//! Commands carried out, between two frames.
+
+use eframe::egui::Context;
+
+use super::export::{self, Content};
+use super::state::Document;
+use super::{Command, Notice, Tautline};
+use crate::compute::protocol::Request;
+use crate::scenario::Scenario;
+
+impl Tautline {
+    pub(super) fn apply(&mut self, context: &Context, command: Command) {
+        match command {
+            Command::Edit(scenario) => {
+                let original = self.document.original.clone();
+                self.edit(Document { scenario: *scenario, original });
+            }
+            Command::Load(scenario) => self.open(*scenario),
+            Command::Read(text) => match Scenario::from_json(&text) {
+                Ok(scenario) => self.open(scenario),
+                Err(faults) => self.complain(faults.to_string()),
+            },
+            Command::Undo => {
+                let before = self.history.undo(&self.document);
+                before.into_iter().for_each(|document| self.edit(document));
+            }
+            Command::Redo => {
+                let after = self.history.redo(&self.document);
+                after.into_iter().for_each(|document| self.edit(document));
+            }
+            Command::Reset => self.open(self.document.original.clone()),
+            Command::Open => self.files.open(context),
+            Command::Save(content) => self.save_content(context, content),
+            Command::CopyModes => match export::plot(super::state::Plot::Modes, self.facts()) {
+                Some(table) => {
+                    context.copy_text(table.tsv());
+                    self.tell("The table of modes is on the clipboard.".into());
+                }
+                None => self.complain("There are no modes to copy at this pose.".into()),
+            },
+            Command::ChooseMode(choice) => {
+                self.state.mode = choice;
+                self.submit(&Request::Shape(choice));
+            }
+            Command::StopStudy(topic) => {
+                let order = self.studies.stop(topic);
+                self.carry_out(order);
+            }
+            Command::ResumeStudy(topic) => {
+                let order = self.studies.resume(topic);
+                self.carry_out(order);
+            }
+            Command::Tell(text) => self.tell(text),
+            Command::Complain(text) => self.complain(text),
+            Command::DismissNotice => self.notice = None,
+        }
+    }
+
+    fn tell(&mut self, text: String) {
+        self.notice = Some(Notice { text, fault: false });
+    }
+
+    fn complain(&mut self, text: String) {
+        self.notice = Some(Notice { text, fault: true });
+    }
+
+    /// Starts from a scenario, as a step of its own.
+    fn open(&mut self, scenario: Scenario) {
+        self.history.step(&self.document);
+        self.edit(Document::opened(scenario));
+        self.history.step(&self.document);
+    }
+
+    /// Takes a document over, where it is physical; else says why not and keeps the last good one.
+    fn edit(&mut self, document: Document) {
+        if let Err(faults) = document.scenario.to_robot() {
+            self.complain(faults.to_string());
+            return;
+        }
+        self.notice = None;
+        let changed = document.scenario != self.document.scenario;
+        self.document = document;
+        if changed {
+            self.analyze();
+        }
+    }
+
+    fn save_content(&mut self, context: &Context, content: Content) {
+        let name = file_name(self.document.scenario.name.as_deref());
+        let facts = self.facts();
+        let (suffix, text) = match content {
+            Content::Scenario => (".json", Some(facts.document.scenario.to_json() + "\n")),
+            Content::Analysis => ("-analysis.json", export::analysis(facts)),
+            Content::Plot(plot) => (export::suffix(plot), export::plot(plot, facts).map(|table| table.csv())),
+            Content::Map => ("-map.csv", export::map(facts).map(|table| table.csv())),
+            Content::PlotPicture if self.plots_open => {
+                return self.files.save_picture(context, &(name + "-plot.png"), self.places.plot);
+            }
+            Content::CanvasPicture => {
+                return self.files.save_picture(context, &(name + "-canvas.png"), self.places.canvas);
+            }
+            Content::PlotPicture => ("", None),
+        };
+        match text {
+            Some(text) => self.files.save(context, &(name + suffix), text.into_bytes()),
+            None => self.complain("There is nothing to save yet: it is not on show, or still being computed.".into()),
+        }
+    }
+}
+
+/// A scenario's name as that of a file, without what file systems do not like.
+fn file_name(name: Option<&str>) -> String {
+    let kept = |c: char| if c.is_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    let name: String = name.unwrap_or_default().chars().map(kept).take(60).collect();
+    let parts: Vec<&str> = name.split('-').filter(|part| !part.is_empty()).collect();
+    if parts.is_empty() { "robot".into() } else { parts.join("-") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_become_names_of_files() {
+        let names =
+            [Some("Paper robot, tangent stiffness"), Some("../..\\etc"), Some("  "), None, Some("Seilroboter Größe 1")];
+        let files = ["paper-robot-tangent-stiffness", "etc", "robot", "robot", "seilroboter-größe-1"];
+        assert_eq!(names.map(file_name), files);
+    }
+}

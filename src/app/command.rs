@@ -1,0 +1,40 @@
+//! What panels ask for, carried out between two frames.
+
+use crate::app::export::Content;
+use crate::compute::protocol::{ModeChoice, Topic};
+use crate::scenario::Scenario;
+
+/// A wish of a panel.
+#[derive(Clone, Debug)]
+pub enum Command {
+    /// Put this scenario in the place of the present one, where it is physical.
+    Edit(Box<Scenario>),
+    /// Start from this scenario: values reset to what they are in it.
+    Load(Box<Scenario>),
+    /// Start from the scenario that a file, a link or the clipboard holds.
+    Read(String),
+    /// Back to the state before the last step.
+    Undo,
+    /// Forward again.
+    Redo,
+    /// All values back to what they were when the scenario was opened.
+    Reset,
+    /// Choose a scenario file and start from it.
+    Open,
+    /// Write something down in a file.
+    Save(Content),
+    /// Put the table of modes on the clipboard.
+    CopyModes,
+    /// Show another mode's shape.
+    ChooseMode(ModeChoice),
+    /// Stop a study; what is known of it stays.
+    StopStudy(Topic),
+    /// Go on with a study that was stopped.
+    ResumeStudy(Topic),
+    /// Tell something that is not a fault.
+    Tell(String),
+    /// Tell what went wrong.
+    Complain(String),
+    /// Take the notice off the screen.
+    DismissNotice,
+}

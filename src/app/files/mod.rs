@@ -1,0 +1,156 @@
+//! Files: opened by a dialog, dropped on the window or the page, pasted, and saved.
+
+#[cfg(not(target_arch = "wasm32"))]
+#[path = "native.rs"]
+mod system;
+#[cfg(target_arch = "wasm32")]
+#[path = "web.rs"]
+mod system;
+
+use std::sync::mpsc::{Receiver, Sender, channel};
+
+use eframe::egui::{Align2, ColorImage, Context, Event, FontId, Id, LayerId, Order, Pos2, Rect, Vec2};
+
+use crate::app::command::Command;
+
+/// A scenario file is a few kilobytes; whoever drops a film by mistake need not wait for it.
+const LARGEST: usize = 1_000_000;
+
+/// What comes of files that are being read.
+#[derive(Debug)]
+pub struct Files {
+    sender: Sender<Command>,
+    receiver: Receiver<Command>,
+}
+
+impl Default for Files {
+    fn default() -> Self {
+        let (sender, receiver) = channel();
+        Self { sender, receiver }
+    }
+}
+
+/// Hands over what was read, from wherever that happens.
+#[derive(Clone)]
+struct Hand {
+    sender: Sender<Command>,
+    context: Context,
+}
+
+impl Hand {
+    fn over(&self, name: &str, bytes: Result<Vec<u8>, String>) {
+        let command = match bytes.map(String::from_utf8) {
+            Ok(Ok(text)) if text.len() <= LARGEST => Command::Read(text),
+            Ok(Ok(_)) => Command::Complain(format!("{name} is not a scenario: it is larger than 1 MB.")),
+            Ok(Err(_)) => Command::Complain(format!("{name} is not a scenario: it is not a text.")),
+            Err(reason) => Command::Complain(format!("{name} could not be read: {reason}")),
+        };
+        self.command(command);
+    }
+
+    fn saved(&self, name: &str, outcome: Result<Option<String>, String>) {
+        match outcome {
+            Ok(Some(place)) => self.command(Command::Tell(format!("Saved {place}."))),
+            Ok(None) => {}
+            Err(reason) => self.command(Command::Complain(format!("{name} could not be saved: {reason}"))),
+        }
+    }
+
+    fn command(&self, command: Command) {
+        // Nobody is left to hear of it once the application is gone.
+        let _ = self.sender.send(command);
+        self.context.request_repaint();
+    }
+}
+
+impl Files {
+    fn hand(&self, context: &Context) -> Hand {
+        Hand { sender: self.sender.clone(), context: context.clone() }
+    }
+
+    /// Lets the user choose a scenario file.
+    pub fn open(&self, context: &Context) {
+        system::open(self.hand(context));
+    }
+
+    /// Saves `bytes` where the user says; a browser's downloads go under `name`.
+    pub fn save(&self, context: &Context, name: &str, bytes: Vec<u8>) {
+        system::save(self.hand(context), name, bytes);
+    }
+
+    /// Saves the part of the window within `rect` as a PNG, once the window has been drawn again.
+    pub fn save_picture(&self, context: &Context, name: &str, rect: Rect) {
+        let (hand, name) = (self.hand(context), name.to_owned());
+        let scale = context.pixels_per_point();
+        context.request_screenshot(move |image| {
+            #[expect(clippy::cast_precision_loss)] // A few thousand pixels.
+            let whole = Rect::from_min_size(Pos2::ZERO, Vec2::from(image.size.map(|n| n as f32)) / scale);
+            match png(&image.region(&rect.intersect(whole), Some(scale))) {
+                Ok(bytes) => system::save(hand, &name, bytes),
+                Err(reason) => hand.command(Command::Complain(format!("{name} could not be made: {reason}"))),
+            }
+        });
+    }
+
+    /// What has been read since the last call, and what was dropped or pasted.
+    pub fn poll(&self, context: &Context) -> Vec<Command> {
+        for file in context.input(|input| input.raw.dropped_files.clone()) {
+            system::read(self.hand(context), file);
+        }
+        if !context.egui_wants_keyboard_input() {
+            context.input(|input| {
+                for event in &input.events {
+                    if let Event::Paste(text) = event {
+                        self.hand(context).command(Command::Read(text.clone()));
+                    }
+                }
+            });
+        }
+        self.receiver.try_iter().collect()
+    }
+}
+
+/// Says over the whole window that what is being dragged over it can be dropped.
+pub fn announce_drop(context: &Context) {
+    if context.input(|input| input.raw.hovered_files.is_empty()) {
+        return;
+    }
+    let painter = context.layer_painter(LayerId::new(Order::Foreground, Id::unique("drop")));
+    let rect = context.content_rect();
+    let visuals = context.global_style().visuals.clone();
+    painter.rect_filled(rect, 0.0, visuals.extreme_bg_color.gamma_multiply(0.8));
+    let font = FontId::proportional(24.0);
+    painter.text(rect.center(), Align2::CENTER_CENTER, "Drop a scenario file to open it", font, visuals.text_color());
+}
+
+/// A picture as a PNG file.
+fn png(image: &ColorImage) -> Result<Vec<u8>, String> {
+    let too_large = |error: std::num::TryFromIntError| error.to_string();
+    let [width, height] = image.size;
+    let (width, height) = (u32::try_from(width).map_err(too_large)?, u32::try_from(height).map_err(too_large)?);
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    let data: Vec<u8> = image.pixels.iter().flat_map(|pixel| pixel.to_srgba_unmultiplied()).collect();
+    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&data));
+    written.map_err(|error| error.to_string())?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::Color32;
+
+    #[test]
+    fn pictures_are_png_files_of_their_size_and_colours() {
+        let mut image = ColorImage::filled([3, 2], Color32::from_rgb(10, 200, 30));
+        image.pixels[4] = Color32::from_rgb(1, 2, 3);
+        let bytes = png(&image).expect("a picture");
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("a PNG file");
+        let mut data = vec![0; 24];
+        reader.next_frame(&mut data).expect("its pixels");
+        assert_eq!((reader.info().width, reader.info().height), (3, 2));
+        assert_eq!((&data[..4], &data[16..20]), (&[10, 200, 30, 255][..], &[1, 2, 3, 255][..]));
+    }
+}

@@ -1,0 +1,189 @@
+//! The bar at the top, and the keys that do the same.
+
+use eframe::egui::{
+    Button, Context, Key, KeyboardShortcut, MenuBar, Modifiers, Panel, PopupCloseBehavior, Ui,
+    containers::menu::MenuConfig,
+};
+
+use crate::app::command::Command;
+use crate::app::export::Content;
+use crate::app::state::{Plot, UiState};
+
+const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
+const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+const REDO_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Y);
+const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
+const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
+
+/// What can be done, as far as it depends on more than the interface's state.
+#[derive(Clone, Copy, Debug)]
+pub struct Possible {
+    /// There is a step to undo.
+    pub undo: bool,
+    /// There is a step to redo.
+    pub redo: bool,
+    /// A value differs from what it was when the scenario was opened.
+    pub reset: bool,
+}
+
+/// Draws the bar.
+pub fn ui(ui: &mut Ui, state: &mut UiState, possible: Possible, commands: &mut Vec<Command>) {
+    Panel::top("menu").show(ui, |ui| {
+        let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClick);
+        MenuBar::new().config(config).ui(ui, |ui| {
+            ui.menu_button("File", |ui| file(ui, state.plot, commands));
+            ui.menu_button("Edit", |ui| edit(ui, possible, commands));
+            ui.menu_button("View", |ui| view(ui, state));
+            ui.menu_button("Help", |ui| help(ui, state));
+            ui.separator();
+            for (name, can, command) in [("Undo", possible.undo, Command::Undo), ("Redo", possible.redo, Command::Redo)]
+            {
+                if ui.add_enabled(can, Button::new(name)).clicked() {
+                    commands.push(command);
+                }
+            }
+        });
+    });
+}
+
+/// An entry with the keys that do the same.
+fn entry(ui: &mut Ui, name: &str, keys: Option<KeyboardShortcut>, enabled: bool) -> bool {
+    let keys = keys.map_or_else(String::new, |keys| ui.ctx().format_shortcut(&keys));
+    ui.add_enabled(enabled, Button::new(name).shortcut_text(keys)).clicked()
+}
+
+fn file(ui: &mut Ui, plot: Plot, commands: &mut Vec<Command>) {
+    if entry(ui, "Open …", Some(OPEN), true) {
+        commands.push(Command::Open);
+    }
+    if entry(ui, "Save scenario", Some(SAVE), true) {
+        commands.push(Command::Save(Content::Scenario));
+    }
+    ui.separator();
+    let contents = [
+        ("Save analysis as JSON", Content::Analysis),
+        ("Save modes as CSV", Content::Plot(Plot::Modes)),
+        ("Save this plot as CSV", Content::Plot(plot)),
+        ("Save this plot as PNG", Content::PlotPicture),
+        ("Save the map as CSV", Content::Map),
+        ("Save the canvas as PNG", Content::CanvasPicture),
+    ];
+    for (name, content) in contents {
+        if entry(ui, name, None, true) {
+            commands.push(Command::Save(content));
+        }
+    }
+}
+
+fn edit(ui: &mut Ui, possible: Possible, commands: &mut Vec<Command>) {
+    if entry(ui, "Undo", Some(UNDO), possible.undo) {
+        commands.push(Command::Undo);
+    }
+    if entry(ui, "Redo", Some(REDO), possible.redo) {
+        commands.push(Command::Redo);
+    }
+    ui.separator();
+    if entry(ui, "Reset all values", None, possible.reset) {
+        commands.push(Command::Reset);
+    }
+    if entry(ui, "Copy the table of modes", None, true) {
+        commands.push(Command::CopyModes);
+    }
+}
+
+fn view(ui: &mut Ui, state: &mut UiState) {
+    ui.toggle_value(&mut state.map.on, "Map");
+    ui.toggle_value(&mut state.playback.playing, "Mode shape moves");
+    if ui.button("Show the whole robot").clicked() {
+        state.camera = Default::default();
+    }
+    ui.separator();
+    if ui.button("Settings").clicked() {
+        state.windows.settings = true;
+    }
+}
+
+fn help(ui: &mut Ui, state: &mut UiState) {
+    if entry(ui, "Keyboard shortcuts", None, true) {
+        state.windows.shortcuts = true;
+    }
+}
+
+/// All keys with what they do, for the window that lists them.
+pub fn shortcuts(context: &Context) -> Vec<(String, &'static str)> {
+    let keys = |keys: &[KeyboardShortcut]| {
+        let names: Vec<String> = keys.iter().map(|keys| context.format_shortcut(keys)).collect();
+        names.join(" or ")
+    };
+    let mut all = vec![
+        (keys(&[UNDO]), "Undo the last step; a drag is one step"),
+        (keys(&[REDO, REDO_TOO]), "Redo"),
+        (keys(&[OPEN]), "Open a scenario file"),
+        (keys(&[SAVE]), "Save the scenario"),
+    ];
+    let others = [
+        ("Tab, Shift+Tab", "From control to control, also the platform, the arrow and the winches"),
+        ("Arrow keys", "Platform or winch: move; arrow: ← → turn, ↑ ↓ speed. With Shift finely"),
+        ("+ and −, 0", "Zoom in and out, and show the whole robot"),
+        ("Space", "Play or pause the mode shape"),
+        (". and ,", "One step of the mode shape forward or back"),
+        ("M", "Map on or off"),
+        ("?", "This list"),
+        ("Esc", "Leave a control, close a window"),
+    ];
+    all.extend(others.map(|(keys, meaning)| (keys.to_owned(), meaning)));
+    all
+}
+
+/// Carries out the keys pressed in this frame.
+pub fn keys(context: &Context, state: &mut UiState, commands: &mut Vec<Command>) {
+    // A text field has its own undo and its own letters.
+    if context.text_edit_focused() {
+        return;
+    }
+    context.input_mut(|input| {
+        // The longer ones first: Ctrl+Z is a part of Ctrl+Shift+Z.
+        if input.consume_shortcut(&REDO) || input.consume_shortcut(&REDO_TOO) {
+            commands.push(Command::Redo);
+        }
+        if input.consume_shortcut(&UNDO) {
+            commands.push(Command::Undo);
+        }
+        if input.consume_shortcut(&OPEN) {
+            commands.push(Command::Open);
+        }
+        if input.consume_shortcut(&SAVE) {
+            commands.push(Command::Save(Content::Scenario));
+        }
+    });
+    // A focused button takes the space bar, and letters are for whoever has the focus.
+    let focused = context.memory(|memory| memory.focused().is_some());
+    context.input_mut(|input| {
+        let mut pressed = |key| input.consume_key(Modifiers::NONE, key);
+        if pressed(Key::M) {
+            state.map.on = !state.map.on;
+        }
+        if !focused && pressed(Key::Space) {
+            state.playback.playing = !state.playback.playing;
+        }
+        for (key, step) in [(Key::Period, 1.0), (Key::Comma, -1.0)] {
+            if pressed(key) {
+                state.playback.step(step);
+            }
+        }
+        for (key, factor) in [(Key::Plus, 1.25), (Key::Minus, 0.8)] {
+            if pressed(key) {
+                state.camera.magnify(factor);
+            }
+        }
+        if pressed(Key::Num0) {
+            state.camera = Default::default();
+        }
+        if pressed(Key::Escape) {
+            state.windows = Default::default();
+        }
+        if input.events.iter().any(|event| matches!(event, eframe::egui::Event::Text(text) if text == "?")) {
+            state.windows.shortcuts = true;
+        }
+    });
+}

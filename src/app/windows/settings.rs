@@ -1,0 +1,38 @@
+//! The settings.
+
+use eframe::egui::{ComboBox, Grid, Ui};
+
+use crate::app::state::{FrequencyUnit, MotionChoice, Settings, StressUnit, ThemeChoice};
+
+/// Draws them; what is chosen counts at once.
+pub fn ui(ui: &mut Ui, settings: &mut Settings) {
+    Grid::new("settings").num_columns(2).spacing([16.0, 8.0]).show(ui, |ui| {
+        let themes =
+            [(ThemeChoice::System, "As the system"), (ThemeChoice::Light, "Light"), (ThemeChoice::Dark, "Dark")];
+        choice(ui, "Theme", &mut settings.theme, &themes);
+        let units = [(FrequencyUnit::Hertz, "Hz"), (FrequencyUnit::RadiansPerSecond, "rad/s")];
+        choice(ui, "Frequencies in", &mut settings.frequency, &units);
+        let units = [(StressUnit::Megapascal, "MPa"), (StressUnit::Gigapascal, "GPa")];
+        choice(ui, "Young's modulus in", &mut settings.stress, &units);
+        let choices = [
+            (MotionChoice::System, "As the system"),
+            (MotionChoice::Full, "Mode shapes move"),
+            (MotionChoice::Reduced, "Nothing moves by itself"),
+        ];
+        choice(ui, "Movement", &mut settings.motion, &choices);
+    });
+    ui.add_space(6.0);
+    ui.weak("The settings and the robot on show are kept on this device and are there again after a restart.");
+}
+
+fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &'static str, value: &mut T, all: &[(T, &str)]) {
+    let label = ui.label(name);
+    let title = all.iter().find(|(other, _)| other == value).map_or("", |(_, title)| title);
+    let list = ComboBox::from_id_salt(name).width(180.0).selected_text(title).show_ui(ui, |ui| {
+        for (other, title) in all {
+            ui.selectable_value(value, *other, *title);
+        }
+    });
+    list.response.labelled_by(label.id);
+    ui.end_row();
+}
