@@ -1,5 +1,6 @@
 //! The numbers of a scenario that can be turned: name, unit, range, meaning, where they live.
 
+use crate::app::state::{Settings, StressUnit};
 use crate::robot::TensionLaw;
 use crate::scenario::Scenario;
 
@@ -24,6 +25,18 @@ pub struct Field {
     pub meaning: &'static str,
     /// Which number it is.
     pub number: Number,
+}
+
+impl Field {
+    /// The same in the units chosen.
+    pub fn in_units_of(mut self, settings: Settings) -> Self {
+        if self.number == Number::YoungsModulus && settings.stress == StressUnit::Gigapascal {
+            self.factor *= 1e3;
+            self.range = self.range.map(|end| end / 1e3);
+            self.unit = "GPa";
+        }
+        self
+    }
 }
 
 /// A number of a scenario.
@@ -53,6 +66,8 @@ pub enum Number {
     PositionY,
     /// The angle of the motion from the x axis, in radians.
     Direction,
+    /// The winch point of a cable (0-based), x or y.
+    Anchor(usize, usize),
     /// The constant tension of a cable (0-based).
     Tension(usize),
     /// Coefficient 0, 1 or 2 of the horizontal part of a cable's tension law.
@@ -75,6 +90,11 @@ impl Number {
             _ => {}
         }
         self.place(&mut copy).map_or(0.0, |place| *place)
+    }
+
+    /// Whether the scenario has such a number.
+    pub fn is_in(self, scenario: &Scenario) -> bool {
+        matches!(self, Self::Elements | Self::Direction) || self.place(&mut scenario.clone()).is_some()
     }
 
     /// Sets it, in SI units.
@@ -105,6 +125,7 @@ impl Number {
             Self::Speed => Some(&mut scenario.motion.speed),
             Self::PositionX => Some(&mut scenario.motion.position[0]),
             Self::PositionY => Some(&mut scenario.motion.position[1]),
+            Self::Anchor(cable, i) => scenario.cables.get_mut(cable)?.anchor.get_mut(i),
             Self::Elements | Self::Direction => None,
             Self::Tension(cable) | Self::Horizontal(cable, _) | Self::Vertical(cable, _) => {
                 match (self, &mut scenario.cables.get_mut(cable)?.tension) {
@@ -202,6 +223,16 @@ pub const MODEL: [Field; 3] = [
         ..field("Elements per cable", "n", "", Number::Elements)
     },
 ];
+
+/// Where a cable's winch is, about `frame`: [left, bottom, right, top] in m.
+pub fn anchor(cable: usize, [left, bottom, right, top]: [f64; 4]) -> [Field; 2] {
+    let meaning = "Where the winch is: x to the right, y up. Once unlocked it can be dragged on the canvas.";
+    let field = |name, i, low: f64, high: f64| {
+        let more = 0.2 * (high - low);
+        Field { range: [low - more, high + more], meaning, ..field(name, name, "m", Number::Anchor(cable, i)) }
+    };
+    [field("x", 0, left, right), field("y", 1, bottom, top)]
+}
 
 /// The constant tension of a cable.
 pub fn tension(cable: usize) -> Field {

@@ -332,9 +332,9 @@ impl Tautline {
     }
 
     fn controls(&mut self, ui: &mut Ui) {
-        let mut commands = std::mem::take(&mut self.commands);
-        panels::controls::ui(ui, self.facts(), &mut commands);
-        self.commands = commands;
+        let Self { state, document, answers, studies, commands, .. } = self;
+        let facts = Facts { document, answers, studies, settings: state.settings };
+        panels::controls::ui(&mut state.unlocked, ui, facts, commands);
     }
 
     fn plots(&mut self, ui: &mut Ui) {

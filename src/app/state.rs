@@ -93,6 +93,12 @@ pub struct UiState {
     pub mode: ModeChoice,
     /// The mode shape's movement.
     pub playback: Playback,
+    /// Whether winches can be dragged.
+    #[serde(skip)]
+    pub unlocked: bool,
+    /// What was the frame when the pointer was pressed: [left, bottom, right, top] in m.
+    #[serde(skip)]
+    pub held_frame: Option<[f64; 4]>,
     /// The canvas's zoom and pan.
     #[serde(skip)]
     pub camera: Camera,
@@ -149,12 +155,18 @@ impl Settings {
         }
     }
 
-    /// A frequency in the unit chosen, and that unit.
-    pub fn frequency(self, hertz: f64) -> (f64, &'static str) {
+    /// The unit of frequencies: what one hertz is in it, and its name.
+    pub fn hertz(self) -> (f64, &'static str) {
         match self.frequency {
-            FrequencyUnit::Hertz => (hertz, "Hz"),
-            FrequencyUnit::RadiansPerSecond => (hertz * TAU, "rad/s"),
+            FrequencyUnit::Hertz => (1.0, "Hz"),
+            FrequencyUnit::RadiansPerSecond => (TAU, "rad/s"),
         }
+    }
+
+    /// A frequency in Hz as a text in the unit chosen.
+    pub fn frequency_text(self, frequency_hz: f64, decimals: usize) -> String {
+        let (hertz, unit) = self.hertz();
+        format!("{:.decimals$} {unit}", frequency_hz * hertz)
     }
 }
 
@@ -220,6 +232,8 @@ impl Default for UiState {
             page: Page::default(),
             mode: critical_mode(),
             playback: Playback::default(),
+            unlocked: false,
+            held_frame: None,
             camera: Camera::default(),
             map: MapView::default(),
             campbell_hz: 5.0,

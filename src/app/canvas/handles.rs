@@ -72,8 +72,38 @@ pub fn ui(
     }
 }
 
+/// The winches, once they are unlocked.
+pub fn winches(
+    ui: &mut Ui,
+    painter: &Painter,
+    view: &View,
+    scene: &Scene,
+    document: &Document,
+    commands: &mut Vec<Command>,
+) {
+    let mut scenario = document.scenario.clone();
+    for (i, cable) in scenario.cables.iter_mut().enumerate() {
+        let centre = view.pos_in_ui(cable.anchor);
+        let winch = handle(ui, painter, &format!("Winch {}", i + 1), centre, CursorIcon::Grab);
+        if let Some(grabbed) = drag(ui, &winch, centre) {
+            cable.anchor = view.pos_in_world(grabbed).map(|coordinate| roundest(coordinate, 1.0 / view.scale));
+        }
+        if let Some(([x, y], fine)) = keys(ui, &winch) {
+            let step = KEY_STEP * (scene.frame[2] - scene.frame[0]) * fine;
+            cable.anchor = [cable.anchor[0] + x * step, cable.anchor[1] + y * step];
+        }
+        if !winch.dragged() {
+            let [x, y] = cable.anchor;
+            winch.on_hover_text(format!("Winch {} at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it.", i + 1));
+        }
+    }
+    if scenario.cables != document.scenario.cables {
+        commands.push(Command::Edit(Box::new(scenario)));
+    }
+}
+
 /// A thing to grab at `centre`, with a ring when it has the keyboard's focus.
-fn handle(ui: &Ui, painter: &Painter, name: &'static str, centre: Pos2, cursor: CursorIcon) -> Response {
+fn handle(ui: &Ui, painter: &Painter, name: &str, centre: Pos2, cursor: CursorIcon) -> Response {
     let rect = Rect::from_center_size(centre, Vec2::splat(GRAB));
     let response = ui.interact(rect, ui.scope_id().with(name), Sense::click_and_drag()).on_hover_cursor(cursor);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));

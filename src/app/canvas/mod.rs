@@ -9,6 +9,7 @@ mod view;
 
 use eframe::egui::{self, Rect, Sense, Ui};
 
+pub use map::named;
 pub use model::{Scene, frame, phase_advance};
 pub use paint::grid_step;
 pub use view::View;
@@ -30,7 +31,11 @@ pub fn ui(
     let (rect, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Robot canvas"));
     let scene = Scene::new(&document.scenario, answers, &state.playback);
-    let view = View::new(rect, scene.frame, state.camera);
+    // The frame follows the winches, but not while one is dragged: the ground would move under the pointer.
+    let pressed = ui.input(|input| input.pointer.any_down());
+    let held = if pressed { state.held_frame.or(Some(scene.frame)) } else { None };
+    state.held_frame = held;
+    let view = View::new(rect, held.unwrap_or(scene.frame), state.camera);
     let mut painter = ui.painter_at(rect);
     painter.set_clip_rect(rect.intersect(ui.clip_rect()));
     paint::background(&painter, ui.visuals(), &view);
@@ -46,9 +51,12 @@ pub fn ui(
         map::point(ui, &painter, &background, &view, facts, commands);
     }
     handles::ui(ui, &painter, &view, &scene, document, commands);
+    if state.unlocked {
+        handles::winches(ui, &painter, &view, &scene, document, commands);
+    }
     handles::camera(ui, &background, &view, &mut state.camera, !state.map.on);
     if state.map.on {
-        layer.legend(&painter, ui, rect, document.scenario.motion.speed);
+        layer.legend(&painter, ui, rect, facts);
     } else {
         paint::legend(&painter, ui.visuals(), rect, &scene);
     }

@@ -97,16 +97,16 @@ impl Files {
         for file in context.input(|input| input.raw.dropped_files.clone()) {
             system::read(self.hand(context), file);
         }
-        if !context.egui_wants_keyboard_input() {
-            context.input(|input| {
-                for event in &input.events {
-                    if let Event::Paste(text) = event {
-                        self.hand(context).command(Command::Read(text.clone()));
-                    }
-                }
-            });
+        let pasted = |event: &Event| match event {
+            Event::Paste(text) => Some(Command::Read(text.clone())),
+            _ => None,
+        };
+        let mut commands: Vec<Command> = context.input(|input| input.events.iter().filter_map(pasted).collect());
+        if context.text_edit_focused() {
+            commands.clear();
         }
-        self.receiver.try_iter().collect()
+        commands.extend(self.receiver.try_iter());
+        commands
     }
 }
 

@@ -53,7 +53,7 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>) {
     }
 }
 
-fn figures(ui: &mut Ui, Facts { document, answers, .. }: Facts<'_>, answer: &CriticalAnswer, current: bool) {
+fn figures(ui: &mut Ui, Facts { document, answers, settings, .. }: Facts<'_>, answer: &CriticalAnswer, current: bool) {
     let visuals = ui.visuals().clone();
     // An old figure is weak, and the line below says that it is being recomputed.
     let shade = |colour| if current { colour } else { visuals.weak_text_color() };
@@ -67,7 +67,7 @@ fn figures(ui: &mut Ui, Facts { document, answers, .. }: Facts<'_>, answer: &Cri
     let rate = answers.pose().and_then(|pose| pose.report.cables.get(critical.cable - 1)).map(|c| c.length_rate);
     let moving = rate.map_or("", |rate| if rate < 0.0 { ", being reeled in" } else { ", being paid out" });
     let kind = match critical.kind {
-        KindReport::Flutter => format!("Flutter at {:.4} Hz", critical.frequency_hz),
+        KindReport::Flutter => format!("Flutter at {}", settings.frequency_text(critical.frequency_hz, 4)),
         KindReport::Divergence => "Divergence (no oscillation)".into(),
     };
     ui.colored_label(shade(visuals.text_color()), format!("{kind} · cable {}{moving}", critical.cable));

@@ -47,7 +47,7 @@ pub fn ui(
     modes: &mut Modes,
     highest: &mut f64,
     ui: &mut Ui,
-    Facts { document, answers, studies, .. }: Facts<'_>,
+    Facts { document, answers, studies, settings, .. }: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
     let Some(Shown { known, current }) = study(ui, Topic::Campbell, studies, commands) else { return };
@@ -59,8 +59,12 @@ pub fn ui(
     );
     ui.horizontal(|ui| {
         ui.spacing_mut().slider_width = 90.0;
-        let slider = Slider::new(highest, 0.5..=100.0).logarithmic(true).suffix(" Hz").text("highest frequency");
-        ui.add(slider.max_decimals(1));
+        let (hertz, unit) = settings.hertz();
+        let mut shown = *highest * hertz;
+        let slider = Slider::new(&mut shown, 0.5 * hertz..=100.0 * hertz).logarithmic(true);
+        if ui.add(slider.suffix(format!(" {unit}")).text("highest frequency").max_decimals(1)).changed() {
+            *highest = shown / hertz;
+        }
     });
     modes.update(known, *highest);
     if modes.pieces.is_empty() {
@@ -73,8 +77,10 @@ pub fn ui(
     let today = document.scenario.motion.speed;
     let group = Id::unique("campbell");
     let mut clicked = None;
-    for (title, unit, growth) in [("Frequency (Hz)", "Hz", false), ("Growth rate (1/s)", "1/s", true)] {
-        let [low, high] = if growth { growth_range(&modes.pieces) } else { [0.0, *highest] };
+    let (hertz, name) = settings.hertz();
+    let frequency = format!("Frequency ({name})");
+    for (title, unit, growth) in [(frequency.as_str(), name, false), ("Growth rate (1/s)", "1/s", true)] {
+        let [low, high] = if growth { growth_range(&modes.pieces) } else { [0.0, *highest * hertz] };
         // Another range is another plot, or the last one's would stay.
         let plot = Plot::new((title, highest.to_bits(), known.version.0))
             .height(height)
@@ -95,7 +101,7 @@ pub fn ui(
             });
         let pieces = &modes.pieces;
         let shown = plot.show(ui, |plot| {
-            draw(plot, &visuals, pieces, growth, current);
+            draw(plot, &visuals, pieces, (!growth).then_some(hertz), current);
             if let Some(critical) = critical {
                 plot.vline(VLine::new("Critical speed", critical).color(theme::warning(&visuals)).width(1.5));
             }
@@ -115,7 +121,8 @@ pub fn ui(
     }
 }
 
-fn draw(plot: &mut PlotUi<'_>, visuals: &Visuals, pieces: &[Piece], growth: bool, current: bool) {
+/// Draws frequencies, one hertz being so much, or growth rates.
+fn draw(plot: &mut PlotUi<'_>, visuals: &Visuals, pieces: &[Piece], hertz: Option<f64>, current: bool) {
     let (calm, warning) = if current {
         (theme::calm(visuals), theme::warning(visuals))
     } else {
@@ -123,7 +130,7 @@ fn draw(plot: &mut PlotUi<'_>, visuals: &Visuals, pieces: &[Piece], growth: bool
     };
     for piece in pieces {
         let value = |&(speed, eigenvalue): &(f64, nalgebra::Complex<f64>)| {
-            [speed, if growth { eigenvalue.re } else { eigenvalue.im / TAU }]
+            [speed, hertz.map_or(eigenvalue.re, |hertz| eigenvalue.im / TAU * hertz)]
         };
         let points: Vec<[f64; 2]> = piece.points.iter().map(value).collect();
         if piece.unstable {
@@ -135,7 +142,7 @@ fn draw(plot: &mut PlotUi<'_>, visuals: &Visuals, pieces: &[Piece], growth: bool
             plot.line(Line::new("", PlotPoints::from(points)).color(calm).width(1.2));
         }
     }
-    if growth {
+    if hertz.is_none() {
         plot.hline(egui_plot::HLine::new("", 0.0).color(visuals.weak_text_color()).allow_hover(false));
     }
 }

@@ -5,6 +5,7 @@ use eframe::egui::{
     Ui, Vec2,
 };
 
+use super::robot;
 use crate::app::Facts;
 use crate::app::canvas;
 use crate::app::command::Command;
@@ -16,17 +17,19 @@ use crate::scenario::{Scenario, presets};
 /// Room for a control's name, in points.
 const LABEL: Vec2 = Vec2::new(130.0, 18.0);
 
-/// Draws the controls; a change becomes one command.
-pub fn ui(ui: &mut Ui, Facts { document, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+/// Draws the controls; a change becomes one command. `unlocked`: whether winches can be dragged.
+pub fn ui(unlocked: &mut bool, ui: &mut Ui, Facts { document, settings, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let original = &document.original;
     let mut edited = document.scenario.clone();
     examples(ui, document, commands);
     let [x, y] = fields::position(canvas::frame(&document.scenario));
     group(ui, "Motion", &mut edited, original, &[fields::SPEED, fields::DIRECTION, x, y]);
-    group(ui, "Cables and platform", &mut edited, original, &fields::BODY);
+    let body = fields::BODY.map(|field| field.in_units_of(settings));
+    group(ui, "Cables and platform", &mut edited, original, &body);
     group(ui, "Damping and mesh", &mut edited, original, &fields::MODEL);
     choices(ui, &mut edited);
     tensions(ui, &mut edited, original);
+    robot::ui(ui, unlocked, &mut edited, original);
     if edited != document.scenario {
         commands.push(Command::Edit(Box::new(edited)));
     }
@@ -54,7 +57,7 @@ fn group(ui: &mut Ui, title: &str, edited: &mut Scenario, original: &Scenario, l
     rows(ui, edited, original, list);
 }
 
-fn rows(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, list: &[Field]) {
+pub(super) fn rows(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, list: &[Field]) {
     for field in list {
         ui.push_id(field.number_id(), |ui| row(ui, edited, original, field));
     }
@@ -103,7 +106,7 @@ fn row(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, field: &Field) {
         }
         ui.add_sized([84.0, 18.0], typed).labelled_by(name.id);
         let first = field.number.get(original);
-        let differs = !same(value, first);
+        let differs = field.number.is_in(original) && !same(value, first);
         let reset = ui.add_enabled(differs, Button::new("↺").small().frame(false));
         if reset.on_hover_text(format!("Back to {} {}", round(first / field.factor), field.unit)).clicked() {
             shown = first / field.factor;
@@ -179,7 +182,7 @@ fn tensions(ui: &mut Ui, edited: &mut Scenario, original: &Scenario) {
 }
 
 /// What a cable's tension law gives at the platform's position, in N.
-fn tension_here(scenario: &Scenario, cable: usize) -> f64 {
+pub(super) fn tension_here(scenario: &Scenario, cable: usize) -> f64 {
     let [x, y] = scenario.motion.position;
     match scenario.cables[cable].tension {
         TensionLaw::Equilibrium => 0.0,

@@ -15,7 +15,7 @@ use crate::compute::protocol::ModeChoice;
 const REACH: f32 = 24.0;
 
 /// Draws the plot.
-pub fn ui(ui: &mut Ui, Facts { answers, .. }: Facts<'_>, choice: ModeChoice, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { answers, settings, .. }: Facts<'_>, choice: ModeChoice, commands: &mut Vec<Command>) {
     let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Right of the line a vibration grows. Click a point: its mode moves on the canvas."
@@ -28,19 +28,21 @@ pub fn ui(ui: &mut Ui, Facts { answers, .. }: Facts<'_>, choice: ModeChoice, com
          away (to the left), and how often it swings. One point right of the line is enough for instability.",
     );
     let visuals = ui.visuals().clone();
-    let modes = pose.modes.iter().map(|mode| [mode.eigenvalue[0], mode.eigenvalue[1] / TAU]);
+    let (hertz, unit) = settings.hertz();
+    let point = move |[re, im]: [f64; 2]| [re, im.abs() / TAU * hertz];
+    let modes = pose.modes.iter().map(|mode| point(mode.eigenvalue));
     let (unstable, stable): (Vec<_>, Vec<_>) = modes.partition(|[growth, _]| *growth > 0.0);
-    let chosen = answers.shape().map(|shape| [shape.eigenvalue[0], shape.eigenvalue[1].abs() / TAU]);
+    let chosen = answers.shape().map(|shape| point(shape.eigenvalue));
     let plot = Plot::new("eigenvalues")
         .x_axis_label("Re λ, growth rate (1/s)")
-        .y_axis_label("Im λ/2π (Hz)")
+        .y_axis_label(if unit == "Hz" { "Im λ/2π (Hz)" } else { "Im λ (rad/s)" })
         .height(ui.available_height().max(220.0))
         .include_x(0.2)
         .allow_scroll(false)
-        .label_formatter(|hover| {
+        .label_formatter(move |hover| {
             let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
                 hover;
-            Some(format!("{:.4} 1/s\n{:.4} Hz", point.x, point.y))
+            Some(format!("{:.4} 1/s\n{:.4} {unit}", point.x, point.y))
         });
     let shown = plot.show(ui, |plot| {
         plot.vline(VLine::new("Limit of stability", 0.0).color(visuals.weak_text_color()));
@@ -55,8 +57,7 @@ pub fn ui(ui: &mut Ui, Facts { answers, .. }: Facts<'_>, choice: ModeChoice, com
         }
     });
     if let Some(clicked) = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked()) {
-        let distance =
-            |mode: &[f64; 2]| shown.transform.position_from_point(&[mode[0], mode[1] / TAU].into()).distance(clicked);
+        let distance = |mode: &[f64; 2]| shown.transform.position_from_point(&point(*mode).into()).distance(clicked);
         let eigenvalues = pose.modes.iter().map(|mode| mode.eigenvalue);
         let nearest = eigenvalues.min_by(|a, b| distance(a).total_cmp(&distance(b)));
         if let Some(eigenvalue) = nearest.filter(|mode| distance(mode) < REACH) {

@@ -15,10 +15,10 @@ use crate::scenario::report::CriticalReport;
 const AXIS: f32 = 46.0;
 
 /// What one of the two plots shows.
-type Value = fn(&CriticalReport) -> f64;
+type Value<'a> = &'a dyn Fn(&CriticalReport) -> f64;
 
 /// Draws the two plots.
-pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { document, studies, settings, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let shown = study(ui, Topic::Line, studies, commands);
     let Some((along, current)) = shown.and_then(|shown| Some((Along::new(shown.known)?, shown.current))) else {
         return;
@@ -43,9 +43,11 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mu
     }
     let height = (0.5 * ui.available_height() - 6.0).max(150.0);
     let today = along.place(document.scenario.motion.position);
-    let plots: [(&str, &str, Value, bool); 2] = [
-        ("Critical speed (m/s)", "m/s", |critical| critical.speed, false),
-        ("Frequency (Hz)", "Hz", |critical| critical.frequency_hz, true),
+    let (hertz, name) = settings.hertz();
+    let frequency = format!("Frequency ({name})");
+    let plots: [(&str, &str, Value<'_>, bool); 2] = [
+        ("Critical speed (m/s)", "m/s", &|critical| critical.speed, false),
+        (&frequency, name, &|critical| critical.frequency_hz * hertz, true),
     ];
     let group = Id::unique("along the line");
     for (title, unit, value, lowest) in plots {
@@ -75,7 +77,7 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mu
     }
 }
 
-fn draw(plot: &mut PlotUi<'_>, along: &Along, value: Value, today: f64, current: bool) {
+fn draw(plot: &mut PlotUi<'_>, along: &Along, value: Value<'_>, today: f64, current: bool) {
     let visuals = plot.ctx().global_style().visuals.clone();
     for [from, to] in along.infeasible() {
         let shade = visuals.weak_text_color().gamma_multiply(0.28);

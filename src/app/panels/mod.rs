@@ -10,6 +10,7 @@ pub mod line;
 pub mod mesh;
 pub mod modes;
 pub mod plots;
+pub mod robot;
 
 use eframe::egui::{CollapsingHeader, Ui};
 use egui_plot::{GridInput, GridMark};

@@ -9,7 +9,7 @@ use crate::app::command::Command;
 use crate::compute::protocol::ModeChoice;
 
 /// Draws the table.
-pub fn ui(ui: &mut Ui, Facts { answers, .. }: Facts<'_>, choice: ModeChoice, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { answers, settings, .. }: Facts<'_>, choice: ModeChoice, commands: &mut Vec<Command>) {
     let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Modes at today's speed. ζ < 0 grows. The cable is the one with most of the kinetic energy."
@@ -18,9 +18,10 @@ pub fn ui(ui: &mut Ui, Facts { answers, .. }: Facts<'_>, choice: ModeChoice, com
     });
     explain(
         ui,
-        "Every row is a way in which the robot vibrates at today's speed: how often it swings (Hz), how fast it grows \
+        "Every row is a way in which the robot vibrates at today's speed: how often it swings, how fast it grows \
          or dies away (1/s), its damping ratio ζ, and the cable that moves most. Click one to see it move.",
     );
+    let (hertz, unit) = settings.hertz();
     let chosen = answers.shape().filter(|shape| !shape.is_critical).map(|shape| shape.eigenvalue);
     let height = ui.available_height().max(220.0);
     TableBuilder::new(ui)
@@ -33,7 +34,7 @@ pub fn ui(ui: &mut Ui, Facts { answers, .. }: Facts<'_>, choice: ModeChoice, com
         .columns(Column::auto().at_least(64.0), 3)
         .column(Column::remainder())
         .header(18.0, |mut header| {
-            for title in ["#", "Hz", "1/s", "ζ", "Cable"] {
+            for title in ["#", unit, "1/s", "ζ", "Cable"] {
                 header.col(|ui| {
                     ui.strong(title);
                 });
@@ -61,7 +62,7 @@ pub fn ui(ui: &mut Ui, Facts { answers, .. }: Facts<'_>, choice: ModeChoice, com
                 let sign = if growth > 0.0 { "▲ " } else { "" };
                 let cells = [
                     name,
-                    format!("{:.4}", mode.frequency_hz),
+                    format!("{:.4}", mode.frequency_hz * hertz),
                     format!("{sign}{growth:.4}"),
                     format!("{:.4}", mode.damping_ratio),
                     cable,

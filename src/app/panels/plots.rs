@@ -51,7 +51,7 @@ pub fn ui(
 fn playback(
     playback: &mut Playback,
     ui: &mut Ui,
-    Facts { document, answers, .. }: Facts<'_>,
+    Facts { document, answers, settings, .. }: Facts<'_>,
     choice: ModeChoice,
     commands: &mut Vec<Command>,
 ) {
@@ -60,7 +60,7 @@ fn playback(
         |shape| {
             let which = if shape.is_critical { "Mode that becomes unstable" } else { "Chosen mode" };
             let frequency = shape.eigenvalue[1].abs() / std::f64::consts::TAU;
-            format!("{which}: {frequency:.3} Hz at {:.2} m/s", shape.speed)
+            format!("{which}: {} at {:.2} m/s", settings.frequency_text(frequency, 3), shape.speed)
         },
     );
     ui.label(what);

@@ -14,7 +14,7 @@ pub use picture::Picture;
 use super::View;
 use super::handles::roundest;
 use crate::app::command::Command;
-use crate::app::state::{Camera, MapQuantity, MapView, UiState};
+use crate::app::state::{Camera, MapQuantity, MapView, Settings, UiState};
 use crate::app::studies::{Known, Shown, Stage, Studies};
 use crate::app::{Facts, series};
 use crate::compute::protocol::{
@@ -30,7 +30,7 @@ const RENEWAL: f64 = 0.1;
 /// All quantities with their names.
 const QUANTITIES: [(MapQuantity, &str, &str); 5] = [
     (MapQuantity::Speed, "Critical speed", "The first speed at which a vibration grows, in m/s"),
-    (MapQuantity::Frequency, "Frequency", "The frequency of the vibration that grows first, in Hz; 0 for divergence"),
+    (MapQuantity::Frequency, "Frequency", "The frequency of the vibration that grows first; 0 for divergence"),
     (MapQuantity::Kind, "Kind", "Flutter (a vibration grows) or divergence (a cable bows out)"),
     (MapQuantity::Cable, "Cable", "The cable with most of the kinetic energy of the vibration that grows first"),
     (MapQuantity::Growth, "Growth rate", "The largest growth rate at today's speed, in 1/s; above 0 it is unstable"),
@@ -90,9 +90,9 @@ impl Layer {
     }
 
     /// Draws what the colours and patterns mean, in the canvas's lower left corner.
-    pub fn legend(&self, painter: &Painter, ui: &Ui, rect: Rect, speed: f64) {
+    pub fn legend(&self, painter: &Painter, ui: &Ui, rect: Rect, facts: Facts<'_>) {
         if let Some(picture) = &self.picture {
-            paint::legend(painter, ui.visuals(), rect, picture, self.current, speed);
+            paint::legend(painter, ui.visuals(), rect, picture, self.current, facts);
         }
     }
 }
@@ -146,7 +146,7 @@ fn choices(ui: &mut Ui, map: &mut MapView) {
 }
 
 /// A list's name for those who do not see it.
-fn named(list: &Response, name: &'static str, value: &'static str) {
+pub fn named(list: &Response, name: &str, value: &str) {
     list.widget_info(|| WidgetInfo {
         label: Some(name.into()),
         current_text_value: Some(value.into()),
@@ -194,7 +194,7 @@ pub fn point(
     painter: &Painter,
     background: &Response,
     view: &View,
-    Facts { document, studies, .. }: Facts<'_>,
+    Facts { document, studies, settings, .. }: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
     let Some(Shown { known, current }) = studies.shown(Topic::Map) else { return };
@@ -205,7 +205,7 @@ pub fn point(
     {
         let at = grid.position(nearest);
         painter.circle_stroke(view.pos_in_ui(at.into()), 4.0, (1.5, ui.visuals().strong_text_color()));
-        let mut text = reading(known, nearest, at);
+        let mut text = reading(known, nearest, at, settings);
         if !current {
             text.push_str("\nOf an earlier state, being recomputed");
         }
@@ -226,7 +226,7 @@ pub fn point(
 }
 
 /// What is known at one of a map's points, in words.
-fn reading(known: &Known, index: usize, at: WorldVec2) -> String {
+fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings) -> String {
     let place = format!("At ({:.2}, {:.2}) m", at.x, at.y);
     let said = match known.places.get(index).and_then(Option::as_ref) {
         None => "not computed yet".into(),
@@ -238,7 +238,7 @@ fn reading(known: &Known, index: usize, at: WorldVec2) -> String {
             VerdictAnswer::NoneUpTo(speed) => format!("no critical speed up to {speed:.0} m/s"),
             VerdictAnswer::Critical(critical) => {
                 let kind = match critical.kind {
-                    KindReport::Flutter => format!("flutter at {:.4} Hz", critical.frequency_hz),
+                    KindReport::Flutter => format!("flutter at {}", settings.frequency_text(critical.frequency_hz, 4)),
                     KindReport::Divergence => "divergence".into(),
                 };
                 let worst = match known.wish.study {

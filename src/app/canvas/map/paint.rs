@@ -6,6 +6,7 @@ use eframe::egui::{
 };
 
 use super::picture::{CLASSES, Cell, Picture};
+use crate::app::Facts;
 use crate::app::canvas::View;
 use crate::app::state::MapQuantity;
 use crate::app::theme;
@@ -136,15 +137,23 @@ fn level_lines(painter: &Painter, visuals: &Visuals, origin: Pos2, area: Rect) {
 }
 
 /// Draws what colours and patterns mean.
-pub fn legend(painter: &Painter, visuals: &Visuals, rect: Rect, picture: &Picture, current: bool, speed: f64) {
+pub fn legend(
+    painter: &Painter,
+    visuals: &Visuals,
+    rect: Rect,
+    picture: &Picture,
+    current: bool,
+    Facts { document, settings, .. }: Facts<'_>,
+) {
+    let (hertz, unit) = settings.hertz();
     let font = FontId::proportional(12.0);
     let text = if current { visuals.text_color() } else { visuals.weak_text_color() };
     let title = match picture.quantity {
         MapQuantity::Speed => "Critical speed (m/s)".into(),
-        MapQuantity::Frequency => "Frequency at the critical speed (Hz)".into(),
+        MapQuantity::Frequency => format!("Frequency at the critical speed ({unit})"),
         MapQuantity::Kind => "Kind of instability".into(),
         MapQuantity::Cable => "Responsible cable".into(),
-        MapQuantity::Growth => format!("Growth rate at {speed:.2} m/s (1/s)"),
+        MapQuantity::Growth => format!("Growth rate at {:.2} m/s (1/s)", document.scenario.motion.speed),
     };
     let title = if current { title } else { format!("{title}, earlier state") };
     let corner = rect.left_bottom() + Vec2::new(12.0, -46.0);
@@ -153,7 +162,8 @@ pub fn legend(painter: &Painter, visuals: &Visuals, rect: Rect, picture: &Pictur
     let mut right = below.x;
     if let Some([low, high]) = picture.range {
         let bar = Rect::from_min_size(below, Vec2::new(140.0, 8.0));
-        scale(painter, visuals, bar, picture, [low, high]);
+        let unit = if picture.quantity == MapQuantity::Frequency { hertz } else { 1.0 };
+        scale(painter, visuals, bar, picture, [low, high], unit);
         right = bar.max.x + 22.0;
     }
     // One row of entries; what does not fit goes on above the title.
@@ -207,7 +217,8 @@ pub fn legend(painter: &Painter, visuals: &Visuals, rect: Rect, picture: &Pictur
 }
 
 /// The colour bar with its ticks.
-fn scale(painter: &Painter, visuals: &Visuals, bar: Rect, picture: &Picture, [low, high]: [f64; 2]) {
+/// The colour bar, with values in a unit of which one of the picture's is so many.
+fn scale(painter: &Painter, visuals: &Visuals, bar: Rect, picture: &Picture, [low, high]: [f64; 2], unit: f64) {
     let text = visuals.text_color();
     let mut strip = Mesh::default();
     let steps = 48_u8;
@@ -230,9 +241,9 @@ fn scale(painter: &Painter, visuals: &Visuals, bar: Rect, picture: &Picture, [lo
         painter.text(bar.right_center(), Align2::LEFT_CENTER, "▶", FontId::proportional(12.0), end);
     }
     let font = FontId::proportional(11.0);
-    for (value, label) in ticks(low, high) {
+    for (value, label) in ticks(low * unit, high * unit) {
         #[expect(clippy::cast_possible_truncation)] // A part of one.
-        let x = bar.min.x + bar.width() * picture.part(value) as f32;
+        let x = bar.min.x + bar.width() * picture.part(value / unit) as f32;
         painter.vline(x, bar.max.y..=bar.max.y + 3.0, Stroke::new(1.0, text));
         painter.text(Pos2::new(x, bar.max.y + 3.0), Align2::CENTER_TOP, label, font.clone(), text);
     }

@@ -1,0 +1,94 @@
+//! What the tests of the interface share: it is found by accessibility label and moved by real pointer events.
+
+#![allow(dead_code, reason = "every test file takes only what it needs")]
+
+use std::time::{Duration, Instant};
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Key, Modifiers, Pos2, Theme, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use tautline::app::{Start, Tautline};
+use tautline::scenario::{Report, Scenario, presets};
+
+/// Points of the screen per metre of the paper's robot at this window size; asserted in the drag test itself.
+pub const SIZE: Vec2 = Vec2::new(1280.0, 800.0);
+/// An analysis takes well under a second; a loaded machine gets a minute.
+pub const PATIENCE: Duration = Duration::from_mins(1);
+
+pub fn paper() -> Scenario {
+    presets::PRESETS[0].scenario()
+}
+
+pub fn app_with(scenario: Scenario, size: Vec2, theme: Theme) -> Harness<'static, Tautline> {
+    let mut app = Harness::builder()
+        .with_size(size)
+        .with_theme(theme)
+        .with_step_dt(1.0 / 60.0)
+        .build_eframe(|context| Tautline::new(context, Start { scenario: Some(scenario) }));
+    settle(&mut app);
+    app
+}
+
+pub fn app() -> Harness<'static, Tautline> {
+    app_with(paper(), SIZE, Theme::Light)
+}
+
+/// Steps until the analysis on show belongs to the document as it is, and everything drawn knows it.
+pub fn settle(app: &mut Harness<'static, Tautline>) {
+    // One step takes the input in, the next carries the command out.
+    app.run_steps(3);
+    let begun = Instant::now();
+    while !app.state().analysis().is_some_and(|analysis| analysis.current) {
+        assert!(begun.elapsed() < PATIENCE, "no analysis after {PATIENCE:?}");
+        std::thread::sleep(Duration::from_millis(2));
+        app.step();
+    }
+    app.run_steps(3);
+}
+
+/// Steps until `condition` holds.
+pub fn wait(app: &mut Harness<'static, Tautline>, what: &str, condition: impl Fn(&Tautline) -> bool) {
+    let begun = Instant::now();
+    while !condition(app.state()) {
+        assert!(begun.elapsed() < PATIENCE, "{what}: not after {PATIENCE:?}");
+        std::thread::sleep(Duration::from_millis(2));
+        app.step();
+    }
+}
+
+pub fn report(app: &Harness<'static, Tautline>) -> Report {
+    app.state().analysis().expect("an analysis").report.clone()
+}
+
+/// What the core answers for the document, computed anew.
+pub fn cold(scenario: &Scenario) -> Report {
+    let (robot, motion) = scenario.to_robot().expect("physical");
+    Report::analyze(&robot, &motion, 40.0)
+}
+
+pub fn drag(app: &mut Harness<'static, Tautline>, from: Pos2, to: Pos2) {
+    app.hover_at(from);
+    app.step();
+    app.drag_at(from);
+    app.step();
+    for part in 1..=10_u8 {
+        app.hover_at(from + (to - from) * (f32::from(part) / 10.0));
+        app.step();
+    }
+    app.drop_at(to);
+    app.step();
+}
+
+pub fn type_value(app: &mut Harness<'static, Tautline>, label: &str, text: &str) {
+    app.get_by_role_and_label(Role::SpinButton, label).click();
+    app.run_steps(2);
+    let select_all = Modifiers::COMMAND;
+    app.key_press_modifiers(select_all, Key::A);
+    app.step();
+    app.event(eframe::egui::Event::Text(text.into()));
+    app.step();
+    app.key_press(Key::Enter);
+    settle(app);
+}
+

@@ -1,0 +1,280 @@
+//! What is around the answer: undo, files, the robot's layout, settings, keys.
+
+#![cfg(feature = "app")]
+
+#[path = "common/interface.rs"]
+mod interface;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{DroppedFile, Event, Key, Modifiers, Theme, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use tautline::app::Tautline;
+use tautline::robot::TensionLaw;
+use tautline::scenario::{Scenario, presets};
+
+use interface::{app, app_with, drag, paper, report, settle, type_value};
+
+type App = Harness<'static, Tautline>;
+
+/// Chooses an entry of a menu.
+fn choose(app: &mut App, menu: &str, entry: &str) {
+    app.get_by_label(menu).click();
+    app.run_steps(3);
+    app.get_by_label_contains(entry).click();
+    settle(app);
+}
+
+fn position(app: &App) -> [f64; 2] {
+    app.state().scenario().motion.position
+}
+
+fn drag_platform(app: &mut App, by: Vec2) {
+    let platform = app.get_by_label("Platform").rect().center();
+    drag(app, platform, platform + by);
+    settle(app);
+}
+
+/// Opens the folded part of the controls.
+fn open_layout(app: &mut App) {
+    app.get_by_label("Layout of the robot").click();
+    app.run_steps(20);
+}
+
+#[test]
+fn every_drag_is_one_step_that_can_be_undone_and_redone() {
+    let mut app = app();
+    drag_platform(&mut app, Vec2::new(60.0, 10.0));
+    let first = position(&app);
+    drag_platform(&mut app, Vec2::new(-20.0, 40.0));
+    let second = position(&app);
+    assert!(first != second && first != [0.0, 0.0], "{first:?} {second:?}");
+    app.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut app);
+    assert_eq!(position(&app), first, "back to the end of the first drag, not into the middle of one");
+    app.get_by_role_and_label(Role::Button, "Undo").click();
+    settle(&mut app);
+    assert_eq!(position(&app), [0.0, 0.0]);
+    app.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    settle(&mut app);
+    app.get_by_role_and_label(Role::Button, "Redo").click();
+    settle(&mut app);
+    assert_eq!(position(&app), second);
+    // The critical speed on show is that of the state brought back.
+    assert_eq!(report(&app), interface::cold(app.state().scenario()));
+}
+
+#[test]
+fn what_is_done_after_an_undo_cannot_be_redone_over() {
+    let mut app = app();
+    drag_platform(&mut app, Vec2::new(60.0, 10.0));
+    app.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut app);
+    type_value(&mut app, "Platform mass m", "3");
+    app.key_press_modifiers(Modifiers::COMMAND, Key::Y);
+    settle(&mut app);
+    assert_eq!((position(&app), app.state().scenario().platform.mass), ([0.0, 0.0], 3.0));
+}
+
+#[test]
+fn all_values_reset_at_once_and_come_back_with_undo() {
+    let mut app = app();
+    type_value(&mut app, "Platform mass m", "3");
+    type_value(&mut app, "Gravity g", "1.62");
+    choose(&mut app, "Edit", "Reset all values");
+    assert_eq!(*app.state().scenario(), paper());
+    app.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut app);
+    assert_eq!((app.state().scenario().platform.mass, app.state().scenario().gravity), (3.0, 1.62));
+}
+
+/// A file in memory, as if it had been dropped.
+#[derive(Debug)]
+struct Memory(PathBuf, Vec<u8>);
+
+impl DroppedFile for Memory {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Ok(self.1.clone())
+    }
+}
+
+fn drop_file(app: &mut App, name: &str, bytes: &[u8]) {
+    app.input_mut().dropped_files.push(Arc::new(Memory(name.into(), bytes.to_vec())));
+    app.step();
+    settle(app);
+}
+
+#[test]
+fn a_dropped_scenario_is_opened_and_the_one_before_comes_back_with_undo() {
+    let mut app = app();
+    drag_platform(&mut app, Vec2::new(60.0, 0.0));
+    let before = app.state().scenario().clone();
+    let other = Scenario { name: Some("Dropped".into()), gravity: 1.62, ..presets::PRESETS[1].scenario() };
+    drop_file(&mut app, "other.json", other.to_json().as_bytes());
+    assert_eq!(*app.state().scenario(), other);
+    assert_eq!(report(&app), interface::cold(&other));
+    // Values reset to those of the file.
+    type_value(&mut app, "Gravity g", "9");
+    choose(&mut app, "Edit", "Reset all values");
+    assert_eq!(app.state().scenario().gravity, 1.62);
+    for _ in 0..3 {
+        app.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        settle(&mut app);
+    }
+    assert_eq!(*app.state().scenario(), before);
+}
+
+#[test]
+fn what_is_no_scenario_is_refused_with_the_reason_and_the_robot_stays() {
+    let mut app = app();
+    let negative = paper().to_json().replace("2.0", "-2.0");
+    let cases: [(&[u8], &str); 4] = [
+        (b"no JSON", "scenario"),
+        (negative.as_bytes(), "platform.mass"),
+        (&[0xff, 0xfe, 0x00], "not a text"),
+        (&vec![b' '; 2_000_000], "larger than 1 MB"),
+    ];
+    for (bytes, reason) in cases {
+        drop_file(&mut app, "bad.json", bytes);
+        let notice = app.state().notice().expect("a message");
+        assert!(notice.contains(reason), "{notice}");
+        assert_eq!(*app.state().scenario(), paper());
+    }
+    app.get_by_label("Dismiss").click();
+    app.run_steps(3);
+    assert_eq!(app.state().notice(), None);
+}
+
+#[test]
+fn a_pasted_scenario_is_opened() {
+    let mut app = app();
+    let other = presets::PRESETS[1].scenario();
+    app.event(Event::Paste(other.to_json()));
+    settle(&mut app);
+    assert_eq!(*app.state().scenario(), other);
+}
+
+#[test]
+fn winches_can_be_dragged_once_unlocked() {
+    let mut app = app();
+    assert!(app.query_by_label("Winch 1").is_none(), "locked at first");
+    open_layout(&mut app);
+    app.get_by_label("Unlock the winches").click();
+    app.run_steps(3);
+    // The first is the handle on the canvas or the part of the controls: the one with the winch's size is the handle.
+    let handle = |app: &App| {
+        app.get_all_by_label("Winch 1").map(|node| node.rect()).find(|rect| rect.width() < 60.0).expect("a handle")
+    };
+    let winch = handle(&app).center();
+    drag(&mut app, winch, winch + Vec2::new(30.0, 20.0));
+    settle(&mut app);
+    let [x, y] = app.state().scenario().cables[0].anchor;
+    assert!((-10.0..-8.0).contains(&x) && (4.0..5.0).contains(&y), "({x}, {y})");
+    assert!(x > -9.9 && y < 4.9, "({x}, {y})");
+    // Right and down by the same scale, to half a point of 30 and of 20: the ground has not moved during the drag.
+    assert!(((x + 10.0) / (5.0 - y) / 1.5 - 1.0).abs() < 0.5 / 30.0 + 0.5 / 20.0, "({x}, {y})");
+    assert_eq!(report(&app), interface::cold(app.state().scenario()));
+    app.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut app);
+    assert_eq!(*app.state().scenario(), paper());
+}
+
+#[test]
+fn cables_are_added_removed_and_put_at_equilibrium() {
+    // Without scrolling.
+    let mut app = app_with(paper(), Vec2::new(1280.0, 1600.0), Theme::Light);
+    open_layout(&mut app);
+    app.get_by_label("Add a cable").click();
+    settle(&mut app);
+    assert_eq!(app.state().scenario().cables.len(), 5);
+    app.get_by_label("First cable at equilibrium").click();
+    app.run_steps(3);
+    app.get_by_role_and_label(Role::Button, "Cable 3").click();
+    settle(&mut app);
+    let laws: Vec<TensionLaw> = app.state().scenario().cables.iter().map(|cable| cable.tension).collect();
+    assert_eq!((laws[1], laws[2]), (TensionLaw::Equilibrium, TensionLaw::Equilibrium));
+    assert_eq!(laws[0], paper().cables[2].tension, "the two have exchanged their laws");
+    app.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    settle(&mut app);
+    // Back to four, and a fourth one goes; three stay.
+    for cable in ["Winch 5", "Winch 4"] {
+        app.get_by_label(cable).click();
+        app.run_steps(20);
+        app.get_by_label(&cable.replace("Winch", "Remove cable")).click();
+        settle(&mut app);
+    }
+    assert_eq!(app.state().scenario().cables.len(), 3);
+    app.get_by_label("Winch 3").click();
+    app.run_steps(20);
+    app.get_by_label("Remove cable 3").click();
+    settle(&mut app);
+    assert_eq!(app.state().scenario().cables.len(), 3, "a robot has three cables at least");
+}
+
+#[test]
+fn another_frame_moves_the_winches_in_proportion() {
+    let mut app = app_with(paper(), Vec2::new(1280.0, 1600.0), Theme::Light);
+    open_layout(&mut app);
+    type_value(&mut app, "Width", "30");
+    let anchors: Vec<[f64; 2]> = app.state().scenario().cables.iter().map(|cable| cable.anchor).collect();
+    assert_eq!(anchors, [[-15.0, 5.0], [15.0, 5.0], [-15.0, -5.0], [15.0, -5.0]]);
+}
+
+#[test]
+fn settings_change_the_units_of_all_figures() {
+    let mut app = app();
+    choose(&mut app, "View", "Settings");
+    for (list, entry) in [("Frequencies in", "rad/s"), ("Young's modulus in", "GPa")] {
+        app.get_by_role_and_label(Role::ComboBox, list).click();
+        app.run_steps(3);
+        app.get_by_role_and_label(Role::Button, entry).click();
+        app.run_steps(5);
+    }
+    app.key_press(Key::Escape);
+    app.run_steps(5);
+    assert!(app.query_by_label("Frequencies in").is_none(), "Escape closes the window");
+    // 0.2716 Hz (docs/theory.md, reference numbers) is 1.7065 rad/s.
+    assert!(app.query_by_label_contains("Flutter at 1.706").is_some());
+    type_value(&mut app, "Young's modulus E", "0.25");
+    assert_eq!(app.state().scenario().cable.youngs_modulus, 0.25e9);
+}
+
+#[test]
+fn keys_open_the_list_of_keys_and_switch_the_map() {
+    let mut app = app();
+    app.event(Event::Text("?".into()));
+    app.run_steps(5);
+    app.get_by_label("This list");
+    app.key_press(Key::Escape);
+    app.run_steps(5);
+    assert!(app.query_by_label("This list").is_none());
+    assert!(app.query_by_label("Map quantity").is_none());
+    app.key_press(Key::M);
+    app.run_steps(3);
+    app.get_by_label("Map quantity");
+    // Not while a number is being typed.
+    app.get_by_role_and_label(Role::SpinButton, "Gravity g").click();
+    app.run_steps(3);
+    app.key_press(Key::M);
+    app.run_steps(3);
+    app.get_by_label("Map quantity");
+}
+
+#[test]
+fn the_menus_fit_a_phone() {
+    let mut app = app_with(paper(), Vec2::new(360.0, 740.0), Theme::Dark);
+    for menu in ["File", "Edit", "View", "Help"] {
+        let rect = app.get_by_label(menu).rect();
+        assert!(rect.max.x <= 360.0, "{menu}: {rect:?}");
+    }
+    choose(&mut app, "View", "Settings");
+    let settings = app.get_by_label("Theme").rect();
+    assert!(settings.min.x >= 0.0 && settings.max.x <= 360.0, "{settings:?}");
+}
