@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, PointerButton, Pos2, Theme, Vec2};
-use egui_kittest::{Harness, Node};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, Node};
 use tautline::app::Tautline;
 use tautline::compute::protocol::Topic;
 use tautline::robot::{Linearisation, Strain, TensionLaw};

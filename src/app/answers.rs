@@ -8,7 +8,7 @@ use crate::compute::protocol::{CriticalAnswer, Failed, ModeShape, PoseAnswer, Re
 use crate::scenario::Report;
 
 /// The newest answers of each kind, each with the revision that it answers.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Answers {
     /// The document's revision: answers to it are current.
     revision: Revision,
@@ -152,6 +152,14 @@ impl Answers {
             CriticalState::Recomputing { last, .. } => last,
             CriticalState::Failed(_) | CriticalState::Broken(_) => None,
         }
+    }
+
+    /// Whether everything, to the curve of growth rates, belongs to the document as it is.
+    pub fn all_current(&self) -> bool {
+        let current = |revision: Option<Revision>| revision == Some(self.revision);
+        self.failed.is_none()
+            && current(self.critical.as_ref().map(|(revision, _)| *revision))
+            && current(self.curve.as_ref().map(|(revision, _)| *revision))
     }
 
     /// The last complete analysis, its revision, and whether it belongs to the document as it is.

@@ -29,6 +29,14 @@ impl Tautline {
                 after.into_iter().for_each(|document| self.edit(document));
             }
             Command::Reset => self.open(self.document.original.clone()),
+            Command::Pin(on) => {
+                self.pinned = None;
+                self.pinning = on;
+                if on && self.answers.failed().is_some() {
+                    self.pinning = false;
+                    self.complain("A pose without an answer cannot be pinned.".into());
+                }
+            }
             Command::Open => self.files.open(context),
             Command::Save(content) => self.save_content(context, content),
             Command::CopyModes => match export::plot(super::state::Plot::Modes, self.facts()) {

@@ -24,6 +24,8 @@ pub struct Possible {
     pub redo: bool,
     /// A value differs from what it was when the scenario was opened.
     pub reset: bool,
+    /// A design is pinned.
+    pub unpin: bool,
 }
 
 /// Draws the bar.
@@ -36,6 +38,14 @@ pub fn ui(ui: &mut Ui, state: &mut UiState, possible: Possible, commands: &mut V
             ui.menu_button("View", |ui| view(ui, state));
             ui.menu_button("Help", |ui| help(ui, state));
             ui.separator();
+            let (name, text) = if possible.unpin {
+                ("Unpin", "Lets the pinned design go")
+            } else {
+                ("Pin", "Keeps this design: all answers and plots then show the difference to it")
+            };
+            if ui.button(name).on_hover_text(text).clicked() {
+                commands.push(Command::Pin(!possible.unpin));
+            }
             for (name, can, command) in [("Undo", possible.undo, Command::Undo), ("Redo", possible.redo, Command::Redo)]
             {
                 if ui.add_enabled(can, Button::new(name)).clicked() {

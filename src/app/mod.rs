@@ -17,6 +17,7 @@ mod menu;
 mod page;
 mod panels;
 mod persist;
+mod pinned;
 mod series;
 mod state;
 mod studies;
@@ -33,6 +34,7 @@ use files::Files;
 use history::History;
 use menu::Possible;
 use persist::Keeper;
+use pinned::Pinned;
 use state::{Document, Page, Settings, UiState};
 use studies::{Order, Studies};
 
@@ -54,6 +56,10 @@ pub struct Tautline {
     answers: Answers,
     compute: Option<Compute>,
     studies: Studies,
+    /// The design to compare with.
+    pinned: Option<Pinned>,
+    /// The present design is to be pinned as soon as all is known of it.
+    pinning: bool,
     pool: Pool,
     files: Files,
     keeper: Keeper,
@@ -82,6 +88,8 @@ pub struct Facts<'a> {
     pub answers: &'a Answers,
     /// What is known of more than the pose.
     pub studies: &'a Studies,
+    /// The design to compare with.
+    pub pinned: Option<&'a Pinned>,
     /// Units.
     pub settings: Settings,
 }
@@ -152,6 +160,8 @@ impl Tautline {
             answers,
             compute,
             studies: Studies::default(),
+            pinned: None,
+            pinning: false,
             pool,
             files: Files::default(),
             applied: Settings::default(),
@@ -234,12 +244,22 @@ impl Tautline {
         let plot = self.plots_open.then_some(self.state.plot);
         let wishes = studies::wanted(&self.document.scenario, &self.state, plot, critical);
         let orders = self.studies.want(wishes);
-        self.carry_out(orders);
+        let idle = !self.studies.is_working();
+        // The pool has one study of each topic: the pinned design's go first, to make room for the present one's.
+        let for_pinned = self.pinned.as_mut().map(|pinned| pinned.want(idle, &self.state, plot));
+        self.carry_out(for_pinned.into_iter().flatten().chain(orders));
         // Both want all of the machine; who drags must not wait. Between two poses the studies go on, so that the line
         // follows the drag.
         self.pool.hold(matches!(self.answers.critical(), CriticalState::Recomputing { .. }));
         for news in self.pool.poll() {
+            if let Some(pinned) = &mut self.pinned {
+                pinned.take(news.clone());
+            }
             self.studies.take(news);
+        }
+        if self.pinning && self.answers.all_current() {
+            self.pinning = false;
+            self.pinned = Some(Pinned::new(self.document.scenario.clone(), self.answers.clone()));
         }
     }
 
@@ -327,26 +347,26 @@ impl Tautline {
     }
 
     fn facts(&self) -> Facts<'_> {
-        let Self { document, answers, studies, state, .. } = self;
-        Facts { document, answers, studies, settings: state.settings }
+        let Self { document, answers, studies, pinned, state, .. } = self;
+        Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings }
     }
 
     fn controls(&mut self, ui: &mut Ui) {
-        let Self { state, document, answers, studies, commands, .. } = self;
-        let facts = Facts { document, answers, studies, settings: state.settings };
+        let Self { state, document, answers, studies, pinned, commands, .. } = self;
+        let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
         panels::controls::ui(&mut state.unlocked, ui, facts, commands);
     }
 
     fn plots(&mut self, ui: &mut Ui) {
         self.plots_open = true;
-        let Self { joined, state, document, answers, studies, commands, .. } = self;
-        let facts = Facts { document, answers, studies, settings: state.settings };
+        let Self { joined, state, document, answers, studies, pinned, commands, .. } = self;
+        let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
         self.places.plot = panels::plots::ui(joined, state, ui, facts, commands);
     }
 
     fn canvas(&mut self, ui: &mut Ui) {
-        let Self { layer, state, document, answers, studies, commands, .. } = self;
-        let facts = Facts { document, answers, studies, settings: state.settings };
+        let Self { layer, state, document, answers, studies, pinned, commands, .. } = self;
+        let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
         self.places.canvas = canvas::ui(layer, state, ui, facts, commands);
     }
 
@@ -355,6 +375,7 @@ impl Tautline {
             undo: self.history.can_undo(&self.document),
             redo: self.history.can_redo(&self.document),
             reset: self.document.scenario != self.document.original,
+            unpin: self.pinned.is_some() || self.pinning,
         };
         menu::ui(ui, &mut self.state, possible, &mut self.commands);
     }
@@ -395,7 +416,7 @@ impl eframe::App for Tautline {
         self.take_replies();
         self.study_on();
         self.keep(context, frame);
-        if self.studies.is_working() {
+        if self.studies.is_working() || self.pinned.as_ref().is_some_and(Pinned::is_working) {
             context.request_repaint_after(HEARTBEAT);
         }
         self.animate(context);

@@ -184,6 +184,18 @@ pub fn degrees([x, y]: [f64; 2]) -> f64 {
     y.atan2(x).to_degrees()
 }
 
+/// The eigenvalues of a Campbell diagram one by one: speed in m/s and [Re λ, Im λ] in 1/s.
+pub fn spectra(known: &Known) -> Vec<(f64, [f64; 2])> {
+    let StudyChoice::Campbell { to, count } = known.wish.study else { return Vec::new() };
+    let mut all = Vec::new();
+    for (i, answer) in known.places.iter().enumerate() {
+        if let Some(PlaceAnswer::Spectrum(Some(values))) = answer {
+            all.extend(values.iter().map(|&value| (evenly(0.0, to, i, count), value)));
+        }
+    }
+    all
+}
+
 /// The modes of a Campbell diagram up to `highest` Hz. Speeds that are not answered yet are left out.
 pub fn tracks(known: &Known, highest: f64) -> Vec<Track> {
     let StudyChoice::Campbell { to, count } = known.wish.study else { return Vec::new() };

@@ -43,6 +43,11 @@ pub fn warning(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(255, 150, 90) } else { Color32::from_rgb(185, 65, 0) }
 }
 
+/// What belongs to the pinned design.
+pub fn pinned(visuals: &Visuals) -> Color32 {
+    if visuals.dark_mode { Color32::from_rgb(215, 165, 225) } else { Color32::from_rgb(125, 55, 140) }
+}
+
 /// What is stable.
 pub fn calm(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_rgb(120, 205, 165) } else { Color32::from_rgb(0, 110, 80) }

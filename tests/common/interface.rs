@@ -91,4 +91,3 @@ pub fn type_value(app: &mut Harness<'static, Tautline>, label: &str, text: &str)
     app.key_press(Key::Enter);
     settle(app);
 }
-

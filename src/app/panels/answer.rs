@@ -34,6 +34,7 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>) {
         }
         CriticalState::Current(answer) => {
             figures(ui, facts, answer, true);
+            difference(ui, facts, Some(answer));
             ui.weak("Up to date");
         }
         CriticalState::Recomputing { last, searched_up_to } => {
@@ -53,7 +54,8 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>) {
     }
 }
 
-fn figures(ui: &mut Ui, Facts { document, answers, settings, .. }: Facts<'_>, answer: &CriticalAnswer, current: bool) {
+fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool) {
+    let Facts { document, answers, settings, .. } = facts;
     let visuals = ui.visuals().clone();
     // An old figure is weak, and the line below says that it is being recomputed.
     let shade = |colour| if current { colour } else { visuals.weak_text_color() };
@@ -94,4 +96,26 @@ fn figures(ui: &mut Ui, Facts { document, answers, settings, .. }: Facts<'_>, an
     if let Some(reason) = &pose.report.reason {
         ui.weak(reason);
     }
+}
+
+/// The pinned design's critical speed, and how far the present one is from it.
+fn difference(ui: &mut Ui, facts: Facts<'_>, answer: Option<&CriticalAnswer>) {
+    let Some(pinned) = facts.pinned else { return };
+    let now = answer.and_then(|answer| answer.critical.as_ref());
+    let text = match (pinned.critical(), now) {
+        (Some(before), Some(now)) => {
+            let percent = 100.0 * (now.speed - before.speed) / before.speed;
+            let (hertz, unit) = facts.settings.hertz();
+            let frequency = (now.frequency_hz - before.frequency_hz) * hertz;
+            let difference = now.speed - before.speed;
+            format!(
+                "Pinned: {:.4} m/s. Now {difference:+.4} m/s ({percent:+.2} %), {frequency:+.4} {unit}",
+                before.speed
+            )
+        }
+        (Some(before), None) => format!("Pinned: {:.4} m/s. Now none", before.speed),
+        (None, Some(_)) => "Pinned: no critical speed found".into(),
+        (None, None) => "Pinned: none found either".into(),
+    };
+    ui.colored_label(theme::pinned(ui.visuals()), text);
 }

@@ -47,7 +47,7 @@ pub fn ui(
     modes: &mut Modes,
     highest: &mut f64,
     ui: &mut Ui,
-    Facts { document, answers, studies, settings, .. }: Facts<'_>,
+    Facts { document, answers, studies, settings, pinned }: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
     let Some(Shown { known, current }) = study(ui, Topic::Campbell, studies, commands) else { return };
@@ -104,6 +104,23 @@ pub fn ui(
             draw(plot, &visuals, pieces, (!growth).then_some(hertz), current);
             if let Some(critical) = critical {
                 plot.vline(VLine::new("Critical speed", critical).color(theme::warning(&visuals)).width(1.5));
+            }
+            if let Some(pinned) = pinned {
+                let colour = theme::pinned(&visuals);
+                let value = |[re, im]: [f64; 2]| if growth { re } else { im / TAU * hertz };
+                let points: Vec<[f64; 2]> = pinned
+                    .study(Topic::Campbell)
+                    .map(series::spectra)
+                    .unwrap_or_default()
+                    .into_iter()
+                    .map(|(speed, eigenvalue)| [speed, value(eigenvalue)])
+                    .filter(|point| (low..=high).contains(&point[1]))
+                    .collect();
+                plot.points(Points::new("Pinned", points).radius(1.2).color(colour).allow_hover(false));
+                if let Some(critical) = pinned.critical() {
+                    let line = VLine::new("Pinned critical speed", critical.speed).style(LineStyle::dashed_dense());
+                    plot.vline(line.color(colour).width(1.5));
+                }
             }
             let line = VLine::new("Today's speed", today).style(LineStyle::dashed_loose());
             plot.vline(line.color(theme::accent(&visuals)).width(2.0));

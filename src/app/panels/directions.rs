@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use eframe::egui::{Align2, RichText, Ui, Visuals};
+use eframe::egui::{Align2, Color32, RichText, Ui, Visuals};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text};
 
 use super::{explain, study};
@@ -14,7 +14,7 @@ use crate::app::theme;
 use crate::compute::protocol::{Topic, VerdictAnswer};
 
 /// Draws the diagram and what follows from it.
-pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let Some(Shown { known, current }) = study(ui, Topic::Polar, studies, commands) else { return };
     explain(
         ui,
@@ -53,7 +53,13 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mu
         });
     let visuals = ui.visuals().clone();
     let today = document.scenario.motion.direction;
-    plot.show(ui, |plot| draw(plot, &visuals, known, current, today, (worst, speed)));
+    let before = pinned.and_then(|pinned| pinned.study(Topic::Polar));
+    plot.show(ui, |plot| {
+        if let Some(before) = before {
+            around(plot, before, theme::pinned(&visuals), LineStyle::dashed_dense());
+        }
+        draw(plot, &visuals, known, current, today, (worst, speed));
+    });
 }
 
 fn draw(
@@ -64,29 +70,11 @@ fn draw(
     today: [f64; 2],
     (worst, speed): ([f64; 2], f64),
 ) {
-    let directions = series::directions(known);
-    let radius = |verdict: Option<&VerdictAnswer>| match verdict {
-        Some(VerdictAnswer::Critical(critical)) => Some(critical.speed),
-        _ => None,
-    };
-    let largest = directions.iter().filter_map(|(_, verdict)| radius(*verdict)).fold(1e-3, f64::max);
+    let speeds = series::directions(known).into_iter().filter_map(|(_, verdict)| radius(verdict));
+    let largest = speeds.fold(1e-3, f64::max);
     rings(plot, visuals, largest);
-    let at = |[x, y]: [f64; 2], radius: f64| [radius * x, radius * y];
     let colour = if current { theme::calm(visuals) } else { visuals.weak_text_color() };
-    // Once around and back to the first direction; gaps stay gaps.
-    let mut stretch = Vec::new();
-    for (direction, verdict) in directions.iter().chain(directions.first()) {
-        match radius(*verdict) {
-            Some(radius) => stretch.push(at(*direction, radius)),
-            // Not known yet is not a gap.
-            None if verdict.is_none() => {}
-            None => {
-                let line = PlotPoints::from(std::mem::take(&mut stretch));
-                plot.line(Line::new("", line).color(colour).width(2.0));
-            }
-        }
-    }
-    plot.line(Line::new("", PlotPoints::from(stretch)).color(colour).width(2.0));
+    around(plot, known, colour, LineStyle::Solid);
 
     let accent = theme::accent(visuals);
     let length = today[0].hypot(today[1]);
@@ -97,6 +85,35 @@ fn draw(
     label(plot, at(today, 1.2 * largest), RichText::new("today").size(12.0).color(accent));
     let warning = theme::warning(visuals);
     plot.points(Points::new("", vec![at(worst, speed)]).shape(MarkerShape::Down).radius(8.0).color(warning));
+}
+
+fn at([x, y]: [f64; 2], radius: f64) -> [f64; 2] {
+    [radius * x, radius * y]
+}
+
+fn radius(verdict: Option<&VerdictAnswer>) -> Option<f64> {
+    match verdict {
+        Some(VerdictAnswer::Critical(critical)) => Some(critical.speed),
+        _ => None,
+    }
+}
+
+/// Once around and back to the first direction; gaps stay gaps.
+fn around(plot: &mut PlotUi<'_>, known: &Known, colour: Color32, style: LineStyle) {
+    let directions = series::directions(known);
+    let mut stretch = Vec::new();
+    let mut line = |stretch: Vec<[f64; 2]>| {
+        plot.line(Line::new("", PlotPoints::from(stretch)).color(colour).width(2.0).style(style));
+    };
+    for (direction, verdict) in directions.iter().chain(directions.first()) {
+        match radius(*verdict) {
+            Some(radius) => stretch.push(at(*direction, radius)),
+            // Not known yet is not a gap.
+            None if verdict.is_none() => {}
+            None => line(std::mem::take(&mut stretch)),
+        }
+    }
+    line(stretch);
 }
 
 /// Circles of equal speed and spokes every 30°.

@@ -8,6 +8,7 @@ use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
 use super::{STALE, explain, near, with_modes};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::pinned::Pinned;
 use crate::app::theme;
 use crate::compute::protocol::ModeChoice;
 
@@ -15,7 +16,12 @@ use crate::compute::protocol::ModeChoice;
 const REACH: f32 = 24.0;
 
 /// Draws the plot.
-pub fn ui(ui: &mut Ui, Facts { answers, settings, .. }: Facts<'_>, choice: ModeChoice, commands: &mut Vec<Command>) {
+pub fn ui(
+    ui: &mut Ui,
+    Facts { answers, settings, pinned, .. }: Facts<'_>,
+    choice: ModeChoice,
+    commands: &mut Vec<Command>,
+) {
     let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Right of the line a vibration grows. Click a point: its mode moves on the canvas."
@@ -51,6 +57,11 @@ pub fn ui(ui: &mut Ui, Facts { answers, settings, .. }: Facts<'_>, choice: ModeC
         };
         plot.points(points("Stable", stable, MarkerShape::Circle, theme::calm(&visuals), 3.0));
         plot.points(points("Unstable", unstable, MarkerShape::Up, theme::warning(&visuals), 6.0));
+        if let Some(pose) = pinned.and_then(Pinned::pose) {
+            let before = pose.modes.iter().map(|mode| point(mode.eigenvalue)).collect();
+            let before = points("Pinned", before, MarkerShape::Diamond, theme::pinned(&visuals), 4.0);
+            plot.points(before.filled(false));
+        }
         if let Some(chosen) = chosen {
             let ring = points("Mode on show", vec![chosen], MarkerShape::Circle, theme::accent(&visuals), 7.0);
             plot.points(ring.filled(false));

@@ -8,7 +8,7 @@ use crate::app::Facts;
 use crate::app::theme;
 
 /// Draws the plot.
-pub fn ui(ui: &mut Ui, Facts { document, answers, .. }: Facts<'_>) {
+pub fn ui(ui: &mut Ui, Facts { document, answers, pinned, .. }: Facts<'_>) {
     let curve = answers.curve().filter(|(points, _)| !points.is_empty());
     let (Some(answer), Some((curve, current))) = (answers.last_critical(), curve) else {
         ui.weak("No growth rates at this pose.");
@@ -40,6 +40,16 @@ pub fn ui(ui: &mut Ui, Facts { document, answers, .. }: Facts<'_>) {
         })
         .show(ui, |plot| {
             plot.hline(HLine::new("", 0.0).color(visuals.weak_text_color()).allow_hover(false));
+            if let Some(pinned) = pinned {
+                let colour = theme::pinned(&visuals);
+                let curve = PlotPoints::from(near_zero(pinned.curve().unwrap_or_default()));
+                let line = Line::new("Pinned", curve).style(LineStyle::dashed_dense());
+                plot.line(line.color(colour).width(2.0));
+                if let Some(critical) = pinned.critical() {
+                    let line = VLine::new(format!("Pinned {:.3} m/s", critical.speed), critical.speed);
+                    plot.vline(line.style(LineStyle::dashed_dense()).color(colour).width(1.5));
+                }
+            }
             let curve = PlotPoints::from(near_zero(curve));
             plot.line(Line::new("Growth rate", curve).color(colour).width(2.0));
             if let Some(critical) = &answer.critical {

@@ -18,7 +18,7 @@ const AXIS: f32 = 46.0;
 type Value<'a> = &'a dyn Fn(&CriticalReport) -> f64;
 
 /// Draws the two plots.
-pub fn ui(ui: &mut Ui, Facts { document, studies, settings, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { document, studies, settings, pinned, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let shown = study(ui, Topic::Line, studies, commands);
     let Some((along, current)) = shown.and_then(|shown| Some((Along::new(shown.known)?, shown.current))) else {
         return;
@@ -49,6 +49,7 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, settings, .. }: Facts<'_>, com
         ("Critical speed (m/s)", "m/s", &|critical| critical.speed, false),
         (&frequency, name, &|critical| critical.frequency_hz * hertz, true),
     ];
+    let before = pinned.and_then(|pinned| Along::new(pinned.study(Topic::Line)?));
     let group = Id::unique("along the line");
     for (title, unit, value, lowest) in plots {
         let abscissa = along.abscissa;
@@ -73,7 +74,16 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, settings, .. }: Facts<'_>, com
                 let length = length.trim_end_matches(')');
                 Some(format!("{name} {:.3} {length}\n{:.4} {unit}", point.x, point.y))
             });
-        plot.show(ui, |plot| draw(plot, &along, value, today, current));
+        plot.show(ui, |plot| {
+            if let Some(before) = &before {
+                let colour = theme::pinned(&plot.ctx().global_style().visuals);
+                for stretch in before.stretches(value) {
+                    let line = Line::new("Pinned", PlotPoints::from(stretch)).style(LineStyle::dashed_dense());
+                    plot.line(line.color(colour).width(1.5));
+                }
+            }
+            draw(plot, &along, value, today, current);
+        });
     }
 }
 

@@ -13,7 +13,7 @@ use crate::compute::protocol::Topic;
 use crate::study::convergence::{Convergence, Doubt, Extrapolation};
 
 /// Draws the plot.
-pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let Some(Shown { known, current }) = study(ui, Topic::Convergence, studies, commands) else { return };
     let today = document.scenario.elements_per_cable;
     let Some(meshes) = Meshes::new(known, today) else { return };
@@ -58,6 +58,10 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, .. }: Facts<'_>, commands: &mu
             if let Some(limit) = limit {
                 let line = HLine::new("Limit", limit).style(LineStyle::dashed_dense());
                 plot.hline(line.color(visuals.text_color()).width(1.5));
+            }
+            if let Some(before) = pinned.and_then(|pinned| Meshes::new(pinned.study(Topic::Convergence)?, today)) {
+                let line = Line::new("Pinned", PlotPoints::from(before.speeds())).style(LineStyle::dashed_dense());
+                plot.line(line.color(theme::pinned(&visuals)).width(1.5));
             }
             plot.line(Line::new("", PlotPoints::from(speeds.clone())).color(colour).width(1.5).allow_hover(false));
             plot.points(Points::new("", speeds).radius(4.0).color(colour));

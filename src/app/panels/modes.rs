@@ -6,10 +6,17 @@ use egui_extras::{Column, TableBuilder};
 use super::{STALE, explain, near, with_modes};
 use crate::app::Facts;
 use crate::app::command::Command;
-use crate::compute::protocol::ModeChoice;
+use crate::app::pinned::Pinned;
+use crate::app::theme;
+use crate::compute::protocol::{ModeChoice, ModeRow};
 
 /// Draws the table.
-pub fn ui(ui: &mut Ui, Facts { answers, settings, .. }: Facts<'_>, choice: ModeChoice, commands: &mut Vec<Command>) {
+pub fn ui(
+    ui: &mut Ui,
+    Facts { answers, settings, pinned, .. }: Facts<'_>,
+    choice: ModeChoice,
+    commands: &mut Vec<Command>,
+) {
     let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Modes at today's speed. ζ < 0 grows. The cable is the one with most of the kinetic energy."
@@ -23,6 +30,13 @@ pub fn ui(ui: &mut Ui, Facts { answers, settings, .. }: Facts<'_>, choice: ModeC
     );
     let (hertz, unit) = settings.hertz();
     let chosen = answers.shape().filter(|shape| !shape.is_critical).map(|shape| shape.eigenvalue);
+    let before = pinned.and_then(Pinned::pose).map(|pose| pose.modes.as_slice());
+    if before.is_some() {
+        ui.colored_label(
+            theme::pinned(ui.visuals()),
+            "In brackets: the difference to the pinned design's nearest mode.",
+        );
+    }
     let height = ui.available_height().max(220.0);
     TableBuilder::new(ui)
         .id_salt("modes")
@@ -60,10 +74,17 @@ pub fn ui(ui: &mut Ui, Facts { answers, settings, .. }: Facts<'_>, choice: ModeC
                     None => String::new(),
                 };
                 let sign = if growth > 0.0 { "▲ " } else { "" };
+                let from = before.and_then(|modes| nearest(modes, mode.eigenvalue));
+                let difference = |now: f64, then: Option<f64>| {
+                    then.map_or_else(String::new, |then| format!(" ({:+.4})", now - then))
+                };
+                let frequency = mode.frequency_hz * hertz;
+                let frequency_then = from.map(|mode| mode.frequency_hz * hertz);
+                let growth_then = from.map(|mode| mode.eigenvalue[0]);
                 let cells = [
                     name,
-                    format!("{:.4}", mode.frequency_hz * hertz),
-                    format!("{sign}{growth:.4}"),
+                    format!("{frequency:.4}{}", difference(frequency, frequency_then)),
+                    format!("{sign}{growth:.4}{}", difference(growth, growth_then)),
                     format!("{:.4}", mode.damping_ratio),
                     cable,
                 ];
@@ -78,4 +99,10 @@ pub fn ui(ui: &mut Ui, Facts { answers, settings, .. }: Facts<'_>, choice: ModeC
                 }
             });
         });
+}
+
+/// The mode with the nearest eigenvalue.
+fn nearest(modes: &[ModeRow], [re, im]: [f64; 2]) -> Option<&ModeRow> {
+    let distance = |mode: &ModeRow| (mode.eigenvalue[0] - re).hypot(mode.eigenvalue[1] - im);
+    modes.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }

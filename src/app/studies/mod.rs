@@ -119,6 +119,11 @@ fn place(topic: Topic) -> usize {
 }
 
 impl Studies {
+    /// Studies that share a pool with others: their revisions are never the same.
+    pub fn apart() -> Self {
+        Self { revision: 1 << 40, ..Self::default() }
+    }
+
     /// Notes what is wanted now, at most one study of each topic, and says what is to be done for it.
     pub fn want(&mut self, mut wishes: Vec<Wish>) -> Vec<Order> {
         let mut orders = Vec::new();
