@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 
 use common::shell::{File, refuse, succeed};
 use serde_json::Value;
-use tautline::scenario::{Report, Scenario, presets};
+use tautline::scenario::{Report, Scenario, link, presets};
 
 fn analyze(input: &str, more: &[&str]) -> Value {
     let arguments = [&["analyze", "-", "--json"], more].concat();
@@ -178,6 +178,17 @@ fn every_example_is_listed_and_can_be_analyzed() {
     }
     let lines = refuse(&["example", "papers"], "");
     assert!(lines.len() == 1 && lines[0].contains("\"papers\"") && lines[0].contains("paper-tangent"), "{lines:?}");
+}
+
+#[test]
+fn a_scenario_becomes_a_link() {
+    let file = File::new("link.json", at(1.5).as_bytes());
+    let link = succeed(&["link", file.path()], "");
+    assert_eq!(link, succeed(&["link", "-"], &at(1.5)));
+    let text = link.strip_prefix("#s=").and_then(|rest| rest.strip_suffix('\n')).unwrap();
+    assert_eq!(link::decode(text).unwrap(), Scenario::from_json(&at(1.5)).unwrap());
+    let lines = refuse(&["link", "-"], &at(0.0).replace("\"mass\": 2.0", "\"mass\": 0"));
+    assert!(lines.len() == 1 && lines[0].starts_with("standard input: platform.mass: 0 is not allowed"), "{lines:?}");
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod analyze;
 mod example;
+mod link;
 mod map;
 mod progress;
 mod rows;
@@ -60,6 +61,7 @@ enum Verb {
     Map(map::Args),
     Sweep(sweep::Args),
     Example(example::Args),
+    Link(link::Args),
 }
 
 /// What a verb prints on standard output.
@@ -86,6 +88,7 @@ fn run_with(arguments: impl Iterator<Item = OsString>) -> Start {
         Ok(Args { verb: Some(Verb::Map(args)), .. }) => map::run(&args),
         Ok(Args { verb: Some(Verb::Sweep(args)), .. }) => sweep::run(&args),
         Ok(Args { verb: Some(Verb::Example(args)), .. }) => example::run(&args),
+        Ok(Args { verb: Some(Verb::Link(args)), .. }) => link::run(&args),
         Ok(Args { verb: None, file: None }) => return Start::App { scenario: None },
         Ok(Args { verb: None, file: Some(file) }) => match read_scenario(&file) {
             Ok(scenario) => return Start::App { scenario: Some(Box::new(scenario)) },

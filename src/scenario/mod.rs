@@ -1,6 +1,7 @@
-//! Everything that is JSON: the scenario file, the presets, the analysis report.
+//! Everything that is JSON: the scenario file, the presets, the analysis report; and the scenario as a link.
 
 mod layout;
+pub mod link;
 pub mod presets;
 mod reader;
 pub mod report;

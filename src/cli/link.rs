@@ -1,0 +1,18 @@
+//! `tautline link`: a scenario as a link.
+
+use std::path::PathBuf;
+
+use crate::cli::{Answer, Output, read_scenario};
+use crate::scenario::link;
+
+/// Print what to append to the page's address to open it with a scenario: #s=…
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// The scenario file (JSON); - reads standard input.
+    file: PathBuf,
+}
+
+pub(super) fn run(args: &Args) -> Answer {
+    let scenario = read_scenario(&args.file)?;
+    Ok(Output::Text(format!("{}{}\n", link::MARK, link::encode(&scenario))))
+}
