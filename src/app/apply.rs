@@ -6,7 +6,7 @@ use super::export::{self, Content};
 use super::state::Document;
 use super::{Command, Notice, Tautline};
 use crate::compute::protocol::Request;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, link};
 
 impl Tautline {
     pub(super) fn apply(&mut self, context: &Context, command: Command) {
@@ -16,10 +16,22 @@ impl Tautline {
                 self.edit(Document { scenario: *scenario, original });
             }
             Command::Load(scenario) => self.open(*scenario),
-            Command::Read(text) => match Scenario::from_json(&text) {
+            Command::Read(text) => match read(&text) {
                 Ok(scenario) => self.open(scenario),
-                Err(faults) => self.complain(faults.to_string()),
+                Err(reason) => self.complain(reason),
             },
+            Command::Share => {
+                let link = format!("{}{}{}", address(), link::MARK, link::encode(&self.document.scenario));
+                let text = if address().is_empty() {
+                    format!(
+                        "On the clipboard, to be pasted here or put behind the address of a page with Tautline: {link}"
+                    )
+                } else {
+                    format!("The link is on the clipboard: {link}")
+                };
+                context.copy_text(link);
+                self.tell(text);
+            }
             Command::Undo => {
                 let before = self.history.undo(&self.document);
                 before.into_iter().for_each(|document| self.edit(document));
@@ -114,6 +126,25 @@ impl Tautline {
             None => self.complain("There is nothing to save yet: it is not on show, or still being computed.".into()),
         }
     }
+}
+
+/// The scenario that a file's or the clipboard's text holds, or a link.
+pub(super) fn read(text: &str) -> Result<Scenario, String> {
+    match text.split_once(link::MARK) {
+        // A scenario's own name may have such letters in it, but JSON begins with a brace.
+        Some((_, fragment)) if !text.trim_start().starts_with('{') => {
+            link::decode(fragment).map_err(|error| error.to_string())
+        }
+        _ => Scenario::from_json(text).map_err(|faults| faults.to_string()),
+    }
+}
+
+/// The page's address without its fragment; empty on the desktop.
+fn address() -> String {
+    #[cfg(target_arch = "wasm32")]
+    return super::page::address();
+    #[cfg(not(target_arch = "wasm32"))]
+    String::new()
 }
 
 /// A scenario's name as that of a file, without what file systems do not like.

@@ -19,6 +19,8 @@ pub enum Command {
     Redo,
     /// All values back to what they were when the scenario was opened.
     Reset,
+    /// Put a link to the scenario on the clipboard.
+    Share,
     /// Keep the present design to compare with, or let the one kept go.
     Pin(bool),
     /// Choose a scenario file and start from it.

@@ -38,6 +38,9 @@ pub fn ui(ui: &mut Ui, state: &mut UiState, possible: Possible, commands: &mut V
             ui.menu_button("View", |ui| view(ui, state));
             ui.menu_button("Help", |ui| help(ui, state));
             ui.separator();
+            if ui.button("Share").on_hover_text("Puts a link to this robot on the clipboard").clicked() {
+                commands.push(Command::Share);
+            }
             let (name, text) = if possible.unpin {
                 ("Unpin", "Lets the pinned design go")
             } else {

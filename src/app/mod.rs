@@ -43,6 +43,9 @@ use crate::compute::{Compute, Pool};
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::scenario::{Report, Scenario, presets};
 
+#[cfg(target_arch = "wasm32")]
+pub use page::take_link;
+
 /// Below this width, in points, the panels go under the canvas.
 const NARROW: f32 = 760.0;
 /// While studies are at work the pool is looked after at least this often.
@@ -114,6 +117,8 @@ struct Notice {
 pub struct Start {
     /// This scenario, which must be physical, rather than that of the last time.
     pub scenario: Option<Scenario>,
+    /// What this link says, even before that.
+    pub link: Option<String>,
 }
 
 /// The analysis on show.
@@ -147,13 +152,19 @@ impl Tautline {
         pool.hold(true);
         pool.prepare();
         let last = storage.and_then(persist::document);
-        let document = start.scenario.map(Document::opened).or_else(|| last.clone());
-        let document = document.unwrap_or_else(|| Document::opened(presets::PRESETS[0].scenario()));
+        let first = || presets::PRESETS[0].scenario();
+        let (linked, notice) = match start.link.map(|link| apply::read(&link)) {
+            Some(Ok(scenario)) => (Some(scenario), None),
+            Some(Err(text)) => (Some(first()), Some(Notice { text, fault: true })),
+            None => (None, None),
+        };
+        let opened = linked.or(start.scenario).map(Document::opened);
+        let document = opened.or_else(|| last.clone()).unwrap_or_else(|| Document::opened(first()));
         let mut history = History::new(last.as_ref().unwrap_or(&document));
         // What was there the last time comes back with undo.
         history.step(&document);
         let mut app = Self {
-            keeper: Keeper::new(&document),
+            keeper: Keeper::new(last),
             document,
             history,
             state: storage.and_then(persist::state).unwrap_or_default(),
@@ -170,7 +181,7 @@ impl Tautline {
             layer: canvas::map::Layer::default(),
             joined: panels::campbell::Modes::default(),
             revision: 0,
-            notice: None,
+            notice,
             commands: Vec::new(),
             #[cfg(target_arch = "wasm32")]
             page: page::Page::new(context),
@@ -408,7 +419,7 @@ impl eframe::App for Tautline {
         menu::keys(context, &mut self.state, &mut self.commands);
         self.commands.extend(self.files.poll(context));
         #[cfg(target_arch = "wasm32")]
-        self.commands.extend(self.page.loaded().map(|scenario| Command::Load(Box::new(scenario))));
+        self.commands.extend(self.page.news());
         for command in std::mem::take(&mut self.commands) {
             self.apply(context, command);
         }

@@ -10,10 +10,11 @@ use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
 use crate::app::answers::{Answers, CriticalState};
+use crate::app::command::Command;
 use crate::app::studies::{Known, Stage, Studies, TOPICS};
 use crate::compute::protocol::{PlaceAnswer, Revision, Topic, VerdictAnswer};
-use crate::scenario::Scenario;
 use crate::scenario::report::KindReport;
+use crate::scenario::{Scenario, link};
 
 /// The element that mirrors the main results as text.
 const SUMMARY: &str = "tautline-summary";
@@ -30,6 +31,7 @@ pub struct Page {
 struct Shared {
     scenario: String,
     loaded: Option<Scenario>,
+    link: Option<String>,
     analysis: Option<String>,
     analysis_key: Option<(Revision, bool)>,
     frame_ms: Option<f64>,
@@ -42,6 +44,22 @@ struct Shared {
     trail_ms: Option<f64>,
 }
 
+/// The page's address without its fragment.
+pub fn address() -> String {
+    let location = web_sys::window().map(|window| window.location());
+    let href = location.and_then(|location| location.href().ok()).unwrap_or_default();
+    href.split('#').next().unwrap_or_default().to_owned()
+}
+
+/// The link in the page's address, if it has one. It is taken out of the address: what is done from then on must not be
+/// undone by loading the page again.
+pub fn take_link() -> Option<String> {
+    let window = web_sys::window()?;
+    let hash = window.location().hash().ok().filter(|hash| hash.starts_with(link::MARK))?;
+    let _ = window.history().ok()?.replace_state_with_url(&JsValue::NULL, "", Some(&address()));
+    Some(hash)
+}
+
 impl Page {
     /// Sets `window.tautline`.
     pub fn new(context: &egui::Context) -> Self {
@@ -49,13 +67,21 @@ impl Page {
         // A page without a window has nobody to tell.
         if let Some(window) = web_sys::window() {
             let _ = Reflect::set(&window, &"tautline".into(), &interface(&shared, context));
+            let (state, context) = (shared.clone(), context.clone());
+            let went = Closure::<dyn Fn()>::new(move || {
+                state.borrow_mut().link = take_link();
+                context.request_repaint();
+            });
+            let _ = window.add_event_listener_with_callback("hashchange", went.into_js_value().unchecked_ref());
         }
         Self { shared, summary: String::new() }
     }
 
-    /// The scenario that a script has loaded since the last call.
-    pub fn loaded(&self) -> Option<Scenario> {
-        self.shared.borrow_mut().loaded.take()
+    /// What a script has loaded since the last call, and the link that the user has gone to.
+    pub fn news(&self) -> Vec<Command> {
+        let mut shared = self.shared.borrow_mut();
+        let loaded = shared.loaded.take().map(|scenario| Command::Load(Box::new(scenario)));
+        loaded.into_iter().chain(shared.link.take().map(Command::Read)).collect()
     }
 
     /// Makes the state of this frame visible.

@@ -34,19 +34,19 @@ pub fn keep_state(storage: &mut dyn Storage, state: &UiState) {
 /// Writes the document down soon after each change.
 #[derive(Debug)]
 pub struct Keeper {
-    written: Document,
+    written: Option<Document>,
     at: Instant,
 }
 
 impl Keeper {
-    /// For a document that need not be written down.
-    pub fn new(document: &Document) -> Self {
-        Self { written: document.clone(), at: Instant::now() }
+    /// Where this document is written down already.
+    pub fn new(written: Option<Document>) -> Self {
+        Self { written, at: Instant::now() }
     }
 
     /// Writes the document down where that is due; else says when it will be.
     pub fn keep(&mut self, storage: &mut dyn Storage, document: &Document) -> Option<Duration> {
-        if self.written == *document {
+        if self.written.as_ref() == Some(document) {
             return None;
         }
         let since = self.at.elapsed();
@@ -56,7 +56,67 @@ impl Keeper {
         storage.set_string(SCENARIO, document.scenario.to_json());
         storage.set_string(ORIGINAL, document.original.to_json());
         storage.flush();
-        (self.written, self.at) = (document.clone(), Instant::now());
+        (self.written, self.at) = (Some(document.clone()), Instant::now());
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashMap;
+
+    use super::*;
+    use crate::app::state::{FrequencyUnit, Plot};
+    use crate::scenario::presets;
+
+    #[derive(Default)]
+    struct Memory(HashMap<String, String>);
+
+    impl Storage for Memory {
+        fn get_string(&self, key: &str) -> Option<String> {
+            self.0.get(key).cloned()
+        }
+
+        fn set_string(&mut self, key: &str, value: String) {
+            self.0.insert(key.into(), value);
+        }
+
+        fn remove_string(&mut self, key: &str) {
+            self.0.remove(key);
+        }
+
+        fn flush(&mut self) {}
+    }
+
+    #[test]
+    fn documents_and_settings_come_back_as_they_were() {
+        let mut storage = Memory::default();
+        assert!(document(&storage).is_none() && state(&storage).is_none());
+        let mut edited = Document::opened(presets::PRESETS[1].scenario());
+        edited.scenario.motion.position = [0.1 + 0.2, -1.0 / 3.0];
+        let mut keeper = Keeper::new(None);
+        assert!(keeper.keep(&mut storage, &edited).is_some(), "not more often than twice a second");
+        std::thread::sleep(PAUSE);
+        assert_eq!(keeper.keep(&mut storage, &edited), None);
+        assert_eq!(document(&storage), Some(edited));
+        let mut looked = UiState { plot: Plot::Line, campbell_hz: 7.5, ..UiState::default() };
+        looked.settings.frequency = FrequencyUnit::RadiansPerSecond;
+        keep_state(&mut storage, &looked);
+        let back = state(&storage).expect("a state");
+        assert_eq!((back.plot, back.campbell_hz, back.settings), (looked.plot, 7.5, looked.settings));
+    }
+
+    /// What an earlier or later version has written, or nobody, is no reason not to start.
+    #[test]
+    fn what_cannot_be_read_is_left_out() {
+        let mut storage = Memory::default();
+        storage.set_string(SCENARIO, "{}".into());
+        storage.set_string(STATE, "(plot: Ghost)".into());
+        assert!(document(&storage).is_none() && state(&storage).is_none());
+        storage.set_string(SCENARIO, presets::PRESETS[0].scenario().to_json());
+        storage.set_string(ORIGINAL, "no JSON".into());
+        storage.set_string(STATE, "(campbell_hz: 9.0)".into());
+        assert_eq!(document(&storage), Some(Document::opened(presets::PRESETS[0].scenario())));
+        assert_eq!(state(&storage).map(|state| (state.campbell_hz, state.plot)), Some((9.0, Plot::default())));
     }
 }

@@ -25,7 +25,7 @@ pub fn app_with(scenario: Scenario, size: Vec2, theme: Theme) -> Harness<'static
         .with_size(size)
         .with_theme(theme)
         .with_step_dt(1.0 / 60.0)
-        .build_eframe(|context| Tautline::new(context, Start { scenario: Some(scenario) }));
+        .build_eframe(|context| Tautline::new(context, Start { scenario: Some(scenario), ..Start::default() }));
     settle(&mut app);
     app
 }
