@@ -2,6 +2,10 @@
 
 use crate::compute::protocol::{CriticalAnswer, Failed, ModeShape, PoseAnswer, Reply, Revision, Update};
 use crate::scenario::Report;
+use crate::scenario::report::SensitivityReport;
+
+/// What each parameter does to the critical speed, or why that cannot be told.
+pub type Sensitivities = Result<Vec<SensitivityReport>, String>;
 
 /// The newest answers of each kind, each with the revision that it answers.
 #[derive(Debug, Default)]
@@ -12,6 +16,7 @@ pub struct Answers {
     failed: Option<(Revision, Failed)>,
     critical: Option<(Revision, CriticalAnswer)>,
     curve: Option<(Revision, Vec<[f64; 2]>)>,
+    sensitivities: Option<(Revision, Sensitivities)>,
     shape: Option<(Revision, ModeShape)>,
     complete: Option<(Revision, Report)>,
     searching: Option<f64>,
@@ -59,6 +64,7 @@ impl Answers {
             Update::Searching(speed) => self.searching = (revision == self.revision).then_some(speed),
             Update::Critical(answer) => self.take_critical(revision, answer),
             Update::Curve(points) => self.curve = Some((revision, points)),
+            Update::Sensitivities(found) => self.sensitivities = Some((revision, found)),
             Update::Shape(shape) => self.shape = Some((revision, *shape)),
             Update::Broken(reason) => self.broken = Some(reason),
         }
@@ -95,6 +101,12 @@ impl Answers {
     /// The newest growth rates against speed, and whether they belong to the document as it is.
     pub fn curve(&self) -> Option<(&[[f64; 2]], bool)> {
         self.curve.as_ref().map(|(revision, points)| (points.as_slice(), *revision == self.revision))
+    }
+
+    /// The newest sensitivities of the critical speed, and whether they belong to the document as it is.
+    #[expect(dead_code, reason = "nothing shows them yet")]
+    pub fn sensitivities(&self) -> Option<(&Sensitivities, bool)> {
+        self.sensitivities.as_ref().map(|(revision, found)| (found, *revision == self.revision))
     }
 
     /// Why the newest pose has no answer, where it has none.
