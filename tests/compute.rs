@@ -5,8 +5,21 @@
 use tautline::compute::Engine;
 use tautline::compute::protocol::{Job, ModeChoice, Reply, Request, Update, Which};
 use tautline::robot::Linearisation;
+use tautline::scenario::report::KnobReport;
 use tautline::scenario::{Report, Scenario, presets};
 
+/// The parameters of the paper's robot.
+const KNOBS: [KnobReport; 9] = [
+    KnobReport::YoungsModulus,
+    KnobReport::Area,
+    KnobReport::MassPerLength,
+    KnobReport::PlatformMass,
+    KnobReport::Tension(3),
+    KnobReport::Tension(4),
+    KnobReport::Alpha,
+    KnobReport::Beta,
+    KnobReport::Gravity,
+];
 const CRITICAL: ModeChoice = ModeChoice { which: Which::Critical, along_x: false };
 
 fn paper_at(x: f64) -> Scenario {
@@ -30,14 +43,15 @@ fn cold(scenario: &Scenario) -> Report {
 }
 
 #[test]
-fn a_job_is_answered_with_pose_critical_speed_shape_and_curve() {
+fn a_job_is_answered_with_pose_critical_speed_shape_curve_and_sensitivities() {
     let scenario = paper_at(2.0);
     let mut engine = Engine::default();
     engine.submit(job(7, &scenario, CRITICAL));
     let replies = finish(&mut engine);
     assert!(replies.iter().all(|reply| reply.revision == 7));
     let expected = cold(&scenario);
-    let mut seen = [false; 4];
+    assert!(matches!(replies.last(), Some(Reply { update: Update::Sensitivities(_), .. })), "the last of all");
+    let mut seen = [false; 5];
     let mut curve = Vec::new();
     for Reply { update, .. } in replies {
         match update {
@@ -70,11 +84,19 @@ fn a_job_is_answered_with_pose_critical_speed_shape_and_curve() {
                 curve = points;
                 seen[3] = true;
             }
+            Update::Sensitivities(found) => {
+                let found = found.expect("a simple crossing");
+                let knobs: Vec<_> = found.iter().map(|sensitivity| sensitivity.knob).collect();
+                assert_eq!(knobs, KNOBS);
+                // Of the values themselves tests/sensitivity.rs takes care.
+                assert!(found.iter().all(|s| s.speed.abs() < 10.0 && s.frequency.is_some_and(f64::is_finite)));
+                seen[4] = true;
+            }
             Update::Searching(speed) => assert!(speed <= 40.0),
             other => panic!("unexpected: {other:?}"),
         }
     }
-    assert_eq!(seen, [true; 4]);
+    assert_eq!(seen, [true; 5]);
     // The curve is above zero from the critical speed on.
     let critical = expected.critical.as_ref().expect("a critical speed").speed;
     assert!(curve.windows(2).all(|ends| ends[0][0] < ends[1][0]), "speeds rise");
@@ -113,6 +135,31 @@ fn the_newest_pose_is_served_first_and_only_the_newest_search_need_finish() {
         panic!("the newest job has no critical speed")
     };
     assert_eq!(answer.critical, cold(&paper_at(4.5)).critical);
+}
+
+#[test]
+fn sensitivities_are_left_out_for_a_newer_pose_and_their_absence_is_explained() {
+    let mut engine = Engine::default();
+    engine.submit(job(1, &paper_at(1.0), CRITICAL));
+    while !engine.work().expect("work").iter().any(|reply| matches!(reply.update, Update::Curve(_))) {}
+    // All that is left of the first pose is its sensitivities.
+    let mut undamped = paper_at(2.0);
+    (undamped.damping.alpha, undamped.damping.beta) = (0.0, 0.0);
+    engine.submit(job(2, &undamped, CRITICAL));
+    let replies = finish(&mut engine);
+    assert!(replies.iter().all(|reply| reply.revision == 2));
+    let Some(Update::Sensitivities(Err(reason))) = replies.last().map(|reply| &reply.update) else {
+        panic!("{:?}", replies.last())
+    };
+    assert!(reason.contains("any speed above zero"), "{reason}");
+    // Below the critical speed there is none.
+    let Request::Analyze(low) = job(3, &paper_at(2.0), CRITICAL) else { panic!("a job") };
+    engine.submit(Request::Analyze(Job { max_speed: 5.0, ..low }));
+    let replies = finish(&mut engine);
+    let Some(Reply { revision: 3, update: Update::Sensitivities(Err(reason)) }) = replies.last() else {
+        panic!("{:?}", replies.last())
+    };
+    assert_eq!(reason, "There is no critical speed up to 5 m/s.");
 }
 
 #[test]

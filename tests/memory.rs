@@ -26,13 +26,15 @@ fn the_search_takes_no_memory_per_value_and_little_in_all() {
 
     let local = Local::new(&robot(10, 4), &motion).expect("a feasible pose");
     let function = Characteristic::new(&local.vibration);
-    let before = dhat::HeapStats::get().total_blocks;
-    let mut sum = 0.0;
-    for k in 0..1000 {
-        sum += function.at(Complex::new(0.0, 0.02 * f64::from(k)), 8.0).by_lambda.norm();
-    }
-    assert!(sum.is_finite() && sum > 0.0, "{sum}");
-    assert_eq!(dhat::HeapStats::get().total_blocks - before, 0, "blocks for 1000 values");
+    // The test harness has threads of its own; what a value takes would be taken every time.
+    let least = (0..20).map(|_| {
+        let before = dhat::HeapStats::get().total_blocks;
+        let values = (0..1000).map(|k| function.at(Complex::new(0.0, 0.02 * f64::from(k)), 8.0).by_lambda.norm());
+        let sum: f64 = values.sum();
+        assert!(sum.is_finite() && sum > 0.0, "{sum}");
+        dhat::HeapStats::get().total_blocks - before
+    });
+    assert_eq!(least.min(), Some(0), "blocks for 1000 values");
 
     let local = Local::new(&robot(200, 8), &motion).expect("a feasible pose");
     let outcome = local.critical_speed(40.0).expect("a critical speed");

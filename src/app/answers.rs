@@ -6,6 +6,10 @@ use web_time::Instant;
 
 use crate::compute::protocol::{CriticalAnswer, Failed, ModeShape, PoseAnswer, Reply, Revision, Update};
 use crate::scenario::Report;
+use crate::scenario::report::SensitivityReport;
+
+/// What each parameter does to the critical speed, or why that cannot be told.
+pub type Sensitivities = Result<Vec<SensitivityReport>, String>;
 
 /// The newest answers of each kind, each with the revision that it answers.
 #[derive(Clone, Debug, Default)]
@@ -16,6 +20,7 @@ pub struct Answers {
     failed: Option<(Revision, Failed)>,
     critical: Option<(Revision, CriticalAnswer)>,
     curve: Option<(Revision, Vec<[f64; 2]>)>,
+    sensitivities: Option<(Revision, Sensitivities)>,
     shape: Option<(Revision, ModeShape)>,
     complete: Option<(Revision, Report)>,
     searching: Option<f64>,
@@ -67,6 +72,7 @@ impl Answers {
             Update::Searching(speed) => self.searching = (revision == self.revision).then_some(speed),
             Update::Critical(answer) => self.take_critical(revision, answer),
             Update::Curve(points) => self.curve = Some((revision, points)),
+            Update::Sensitivities(found) => self.sensitivities = Some((revision, found)),
             Update::Shape(shape) => self.shape = Some((revision, *shape)),
             Update::Broken(reason) => self.broken = Some(reason),
         }
@@ -115,6 +121,11 @@ impl Answers {
         self.curve.as_ref().map(|(revision, points)| (points.as_slice(), *revision == self.revision))
     }
 
+    /// The newest sensitivities of the critical speed, and whether they belong to the document as it is.
+    pub fn sensitivities(&self) -> Option<(&Sensitivities, bool)> {
+        self.sensitivities.as_ref().map(|(revision, found)| (found, *revision == self.revision))
+    }
+
     /// Why the newest pose has no answer, where it has none.
     pub fn failed(&self) -> Option<&Failed> {
         self.failed.as_ref().map(|(_, failed)| failed)
@@ -154,12 +165,13 @@ impl Answers {
         }
     }
 
-    /// Whether everything, to the curve of growth rates, belongs to the document as it is.
+    /// Whether everything, to the sensitivities, belongs to the document as it is.
     pub fn all_current(&self) -> bool {
         let current = |revision: Option<Revision>| revision == Some(self.revision);
         self.failed.is_none()
             && current(self.critical.as_ref().map(|(revision, _)| *revision))
             && current(self.curve.as_ref().map(|(revision, _)| *revision))
+            && current(self.sensitivities.as_ref().map(|(revision, _)| *revision))
     }
 
     /// The last complete analysis, its revision, and whether it belongs to the document as it is.

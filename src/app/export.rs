@@ -91,6 +91,7 @@ pub fn plot(plot: Plot, facts: Facts<'_>) -> Option<Table> {
         Plot::Directions => study(Topic::Polar).and_then(places),
         Plot::Campbell => study(Topic::Campbell).and_then(places),
         Plot::Mesh => study(Topic::Convergence).and_then(places),
+        Plot::Knobs => knobs(facts),
     }
 }
 
@@ -103,6 +104,7 @@ pub fn suffix(plot: Plot) -> &'static str {
         Plot::Directions => "-directions.csv",
         Plot::Campbell => "-campbell.csv",
         Plot::Mesh => "-mesh.csv",
+        Plot::Knobs => "-knobs.csv",
     }
 }
 
@@ -127,6 +129,16 @@ fn modes(facts: Facts<'_>) -> Option<Table> {
             [re.to_string(), im.to_string(), mode.multiplicity.to_string()].into_iter().chain(shares).collect()
         })
         .collect();
+    Some(table)
+}
+
+/// Relative derivatives of the critical speed and of its frequency.
+fn knobs(facts: Facts<'_>) -> Option<Table> {
+    let (found, _) = facts.answers.sensitivities()?;
+    let mut table = Table::new(&["parameter", "critical_speed_percent_per_percent", "frequency_percent_per_percent"]);
+    let text = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
+    let rows = found.as_ref().ok()?.iter();
+    table.rows = rows.map(|one| vec![one.knob.to_string(), one.speed.to_string(), text(one.frequency)]).collect();
     Some(table)
 }
 

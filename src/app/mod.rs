@@ -365,7 +365,7 @@ impl Tautline {
     fn controls(&mut self, ui: &mut Ui) {
         let Self { state, document, answers, studies, pinned, commands, .. } = self;
         let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
-        panels::controls::ui(&mut state.unlocked, ui, facts, commands);
+        panels::controls::ui(state, ui, facts, commands);
     }
 
     fn plots(&mut self, ui: &mut Ui) {

@@ -5,7 +5,7 @@ use crate::app::state::UiState;
 use crate::app::studies::{self, Known, Order, Studies};
 use crate::compute::protocol::{CriticalAnswer, PoseAnswer, StudyNews, Topic};
 use crate::scenario::Scenario;
-use crate::scenario::report::CriticalReport;
+use crate::scenario::report::{CriticalReport, SensitivityReport};
 
 /// A design with what is known of it.
 #[derive(Debug)]
@@ -30,6 +30,11 @@ impl Pinned {
     /// Its growth rates against speed.
     pub fn curve(&self) -> Option<&[[f64; 2]]> {
         self.answers.curve().map(|(points, _)| points)
+    }
+
+    /// How its critical speed depends on each parameter.
+    pub fn sensitivities(&self) -> Option<&[SensitivityReport]> {
+        self.answers.sensitivities().and_then(|(found, _)| found.as_deref().ok())
     }
 
     /// The end of its search for a critical speed.

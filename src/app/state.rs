@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use crate::app::fields::Number;
 use crate::compute::protocol::{ModeChoice, Which};
 use crate::scenario::Scenario;
 
@@ -41,6 +42,8 @@ pub enum Plot {
     Campbell,
     /// Critical speed against the mesh.
     Mesh,
+    /// Sensitivities of the critical speed.
+    Knobs,
 }
 
 /// What the map under the robot shows.
@@ -93,6 +96,9 @@ pub struct UiState {
     pub mode: ModeChoice,
     /// The mode shape's movement.
     pub playback: Playback,
+    /// The control to bring into view.
+    #[serde(skip)]
+    pub wanted: Option<Number>,
     /// Whether winches can be dragged.
     #[serde(skip)]
     pub unlocked: bool,
@@ -232,6 +238,7 @@ impl Default for UiState {
             page: Page::default(),
             mode: critical_mode(),
             playback: Playback::default(),
+            wanted: None,
             unlocked: false,
             held_frame: None,
             camera: Camera::default(),
@@ -240,6 +247,14 @@ impl Default for UiState {
             settings: Settings::default(),
             windows: Windows::default(),
         }
+    }
+}
+
+impl UiState {
+    /// Brings the control of a number into view.
+    pub fn reveal(&mut self, number: Number) {
+        self.wanted = Some(number);
+        self.page = Page::Controls;
     }
 }
 

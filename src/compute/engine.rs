@@ -14,11 +14,11 @@ use super::protocol::{
     Update, Which,
 };
 use crate::mechanics::CableShape;
-use crate::robot::{Motion, Vec2};
-use crate::scenario::report::{failure_sentence, sentence};
+use crate::robot::{Motion, Robot, Vec2};
+use crate::scenario::report::{SensitivityReport, failure_sentence, sentence};
 use crate::scenario::{Report, Scenario};
 use crate::stability::{self, CriticalSearch, NotConverged, Outcome, Polarisation, Spectrum};
-use crate::study::Local;
+use crate::study::{Local, sensitivities};
 
 /// A slice of the search ends after this time, so that a newer request is seen soon.
 const SLICE: Duration = Duration::from_millis(8);
@@ -56,6 +56,7 @@ pub struct Engine {
 /// A pose under analysis.
 struct Pose {
     revision: Revision,
+    robot: Robot,
     local: Local,
     motion: Motion,
     /// At today's speed, where it could be computed.
@@ -75,6 +76,7 @@ struct Pose {
 enum Stage {
     Searching { search: CriticalSearch, since: Instant },
     Curve { from: f64, next: u32, to: f64, last: u32, points: Vec<[f64; 2]>, since: Instant },
+    Sensitivities,
     Done,
 }
 
@@ -114,6 +116,7 @@ impl Engine {
                 let recent = self.last_curve.is_some_and(|last| last.elapsed() < CURVE_PAUSE);
                 overtaken && (recent || since.elapsed() > CURVE_PATIENCE)
             }
+            Stage::Sensitivities => overtaken,
             Stage::Done => true,
         };
         if finished {
@@ -187,6 +190,7 @@ impl Pose {
             revision: job.revision,
             effort: begun.elapsed(),
             report: Report::of_pose(&local, motion.speed(), spectrum.as_ref()),
+            robot,
             local,
             motion,
             spectrum,
@@ -252,7 +256,16 @@ impl Pose {
         if known { self.shape().into_iter().collect() } else { Vec::new() }
     }
 
-    /// One slice of the search or of the curve.
+    /// What each parameter does to the critical speed that was found, or why that cannot be told.
+    fn sensitivities(&self) -> Result<Vec<SensitivityReport>, String> {
+        let Some(Outcome::Found(critical)) = &self.outcome else {
+            return Err(format!("There is no critical speed up to {} m/s.", self.limit));
+        };
+        let found = sensitivities(&self.robot, &self.motion, critical);
+        Ok(found.map_err(|reason| sentence(&reason.to_string()))?.iter().map(SensitivityReport::from).collect())
+    }
+
+    /// One slice of the search, of the curve or of what follows.
     fn slice(&mut self) -> Slice {
         let begun = Instant::now();
         let outcome = loop {
@@ -273,7 +286,7 @@ impl Pose {
         replies
     }
 
-    /// One eigenvalue problem of the search or of the curve.
+    /// One eigenvalue problem of the search or of the curve, or all that follows.
     fn step(&mut self) -> Result<Slice, NotConverged> {
         match &mut self.stage {
             Stage::Done => Ok(Vec::new()),
@@ -303,7 +316,7 @@ impl Pose {
                 } else {
                     // Nor would the eigenvalues be found at other speeds.
                     replies.push(self.reply(Update::Curve(Vec::new())));
-                    Stage::Done
+                    Stage::Sensitivities
                 };
                 Ok(replies)
             }
@@ -318,8 +331,12 @@ impl Pose {
                     return Ok(Vec::new());
                 }
                 let points = std::mem::take(points);
-                self.stage = Stage::Done;
+                self.stage = Stage::Sensitivities;
                 Ok(vec![self.reply(Update::Curve(points))])
+            }
+            Stage::Sensitivities => {
+                self.stage = Stage::Done;
+                Ok(vec![self.reply(Update::Sensitivities(self.sensitivities()))])
             }
         }
     }

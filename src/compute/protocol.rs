@@ -5,7 +5,7 @@ use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 use crate::scenario::Report;
-use crate::scenario::report::CriticalReport;
+use crate::scenario::report::{CriticalReport, SensitivityReport};
 use crate::stability::Mode;
 
 /// Names a state of the document; later states have larger numbers.
@@ -73,6 +73,8 @@ pub enum Update {
     Critical(CriticalAnswer),
     /// The growth rate against speed, to somewhat beyond the critical one: [speed in m/s, max Re λ in 1/s].
     Curve(Vec<[f64; 2]>),
+    /// What each parameter does to the critical speed; or as a sentence why that cannot be told. The last of a pose.
+    Sensitivities(Result<Vec<SensitivityReport>, String>),
     /// A mode's shape.
     Shape(Box<ModeShape>),
     /// The worker does not work, with the reason.

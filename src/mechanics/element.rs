@@ -3,54 +3,62 @@
 //! w(ξ) = w₀ + (w₁ − w₀) ξ is the rate, in unstretched metres per second, at which material moves along the
 //! element's coordinate ξ ∈ [0, 1], times l. In a cable of n elements paid out uniformly, w₀ = −k l̇ and
 //! w₁ = −(k+1) l̇ for element k. Equal constant w₀ = w₁ is the travelling string. Every matrix here acts on x and y
-//! alike (⊗ I₂) but the elastic one.
+//! alike (⊗ I₂) but the elastic one. All are for plain and dual numbers.
 //!
 //! Source: docs/theory.md section 4, after Du, Cui, Bao and Qiu (2015).
 
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Vector2};
+use num_dual::DualNum;
 
 use crate::mechanics::Material;
-use crate::robot::{Linearisation, Vec2};
+use crate::robot::Linearisation;
 
 /// A 2 × 2 matrix over the element's two nodes, rows first.
 pub type Block = Matrix2<f64>;
 
 /// M = μ l [[1/3, 1/6], [1/6, 1/3]], in kg, for μ in kg/m and l in m.
-pub fn mass(mu: f64, l: f64) -> Block {
-    Block::new(1.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0, 1.0 / 3.0) * (mu * l)
+pub fn mass<D: DualNum<Primitive = f64> + Copy>(mu: D, l: D) -> Matrix2<D> {
+    let [third, sixth] = [3.0, 6.0].map(|part| mu * l / part);
+    Matrix2::new(third, sixth, sixth, third)
 }
 
 /// The "energy transfer" matrix C = 2 μ [[−a, a], [−b, b]], in kg/s, with a = w₀/3 + w₁/6 and b = w₀/6 + w₁/3.
-pub fn transfer(mu: f64, w: [f64; 2]) -> Block {
-    2.0 * convection(mu, w)
+pub fn transfer<D: DualNum<Primitive = f64> + Copy>(mu: D, w: [D; 2]) -> Matrix2<D> {
+    convection(mu * 2.0, w)
 }
 
 /// `K_dyn` = μ [[−a', a'], [−b', b']] − (μ/l) (w₀² + w₀ w₁ + w₁²)/3 [[1, −1], [−1, 1]], in N/m, with a' and b' made of
 /// the rates ẇ₀ and ẇ₁ as a and b of [`transfer`] are made of w₀ and w₁.
-pub fn flow_stiffness(mu: f64, l: f64, w: [f64; 2], w_rate: [f64; 2]) -> Block {
-    let square = (w[0] * w[0] + w[0] * w[1] + w[1] * w[1]) / 3.0;
-    convection(mu, w_rate) - Block::new(1.0, -1.0, -1.0, 1.0) * (mu / l * square)
+pub fn flow_stiffness<D: DualNum<Primitive = f64> + Copy>(mu: D, l: D, w: [D; 2], w_rate: [D; 2]) -> Matrix2<D> {
+    let square = mu / l * (w[0] * w[0] + w[0] * w[1] + w[1] * w[1]) / 3.0;
+    convection(mu, w_rate) - Matrix2::new(square, -square, -square, square)
 }
 
-fn convection(mu: f64, w: [f64; 2]) -> Block {
+fn convection<D: DualNum<Primitive = f64> + Copy>(mu: D, w: [D; 2]) -> Matrix2<D> {
     let a = mu * (w[0] / 3.0 + w[1] / 6.0);
     let b = mu * (w[0] / 6.0 + w[1] / 3.0);
-    Block::new(-a, a, -b, b)
+    Matrix2::new(-a, a, -b, b)
 }
 
 /// A/l of the elastic stiffness [[A, −A], [−A, A]]/l, in N/m, over x and y, for an element of unstretched length l
 /// that carries the force t (N, not zero).
 ///
 /// Tangent: A = (N/λ)(I − e eᵀ) + N'(λ) e eᵀ with e = t/N. Secant: A = (N/λ) I. Paper's Eqs. 14 and 15.
-pub fn elastic(material: Material, linearisation: Linearisation, l: f64, t: Vec2) -> Matrix2<f64> {
-    let force = t.norm();
+pub fn elastic<D: DualNum<Primitive = f64> + Copy>(
+    material: Material<D>,
+    linearisation: Linearisation,
+    l: D,
+    t: Vector2<D>,
+) -> Matrix2<D> {
+    let force = (t.x * t.x + t.y * t.y).sqrt();
     let stretch = material.stretch(force);
-    let secant = Matrix2::identity() * (force / stretch);
+    let across = force / stretch;
+    let secant = Matrix2::from_diagonal_element(across);
     let a = match linearisation {
         Linearisation::Secant => secant,
         Linearisation::Tangent => {
             let e = t / force;
-            secant + e * e.transpose() * (material.tangent(stretch) - force / stretch)
+            secant + e * e.transpose() * (material.tangent(stretch) - across)
         }
     };
     a / l
@@ -59,8 +67,7 @@ pub fn elastic(material: Material, linearisation: Linearisation, l: f64, t: Vec2
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::Strain;
-    use nalgebra::Vector2;
+    use crate::robot::{Strain, Vec2};
     use proptest::prelude::*;
 
     proptest! {

@@ -5,23 +5,60 @@
 //! their rates with v². K is the elastic part alone. Winch nodes do not move. The matrices are never formed here:
 //! the problem is kept as chains of elements that meet in the platform. docs/theory.md section 7.
 
-use nalgebra::Matrix2;
+use nalgebra::{Matrix2, Vector2};
+use num_dual::{Dual2, Dual64, DualNum};
 
-use super::element::{self, Block};
+use super::cable::CableModel;
+use super::element;
+use super::motion::paths;
+use super::parameters::{Knob, Parameters};
 use crate::mechanics::{LengthRates, Material, Statics};
-use crate::robot::{Damping, Linearisation, Robot};
+use crate::robot::{Damping, Linearisation, Robot, Vec2};
 
 /// One element's parts of M, C, D (over its two nodes) and K (A/l, over x and y).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Element {
+pub struct Element<D = f64> {
     /// M, in kg.
-    pub mass: Block,
+    pub mass: Matrix2<D>,
     /// C at v = 1 m/s, in kg/m.
-    pub transfer: Block,
+    pub transfer: Matrix2<D>,
     /// D: `K_dyn` at v = 1 m/s, in kg/m².
-    pub flow: Block,
+    pub flow: Matrix2<D>,
     /// A/l of K = [[A, −A], [−A, A]]/l, in N/m.
-    pub elastic: Matrix2<f64>,
+    pub elastic: Matrix2<D>,
+}
+
+impl<D: DualNum<Primitive = f64> + Copy> Element<D> {
+    /// The elements of one cable of unstretched length L from the platform to the winch, given the force of each.
+    fn of_cable<'a>(
+        robot: &'a Robot,
+        parameters: &'a Parameters<D>,
+        length: D,
+        rates: LengthRates<D>,
+        forces: impl IntoIterator<Item = Vector2<D>> + 'a,
+    ) -> impl Iterator<Item = Self> + 'a {
+        let material = Material { axial_stiffness: parameters.axial_stiffness, strain: robot.strain };
+        let (mu, n) = (parameters.mass_per_length, robot.elements as f64);
+        let l = length / n;
+        forces.into_iter().enumerate().map(move |(k, t)| {
+            // Inflow of element k and its rate at v = 1: w = −k l̇, −(k+1) l̇ with l̇ = L'/n, l̈ = L''/n.
+            let inflow = |derivative: D| [derivative * -(k as f64) / n, derivative * -((k + 1) as f64) / n];
+            Self {
+                mass: element::mass(mu, l),
+                transfer: element::transfer(mu, inflow(rates.first)),
+                flow: element::flow_stiffness(mu, l, inflow(rates.first), inflow(rates.second)),
+                elastic: element::elastic(material, robot.linearisation, l, t),
+            }
+        })
+    }
+}
+
+impl Element<Dual64> {
+    fn derivative(&self) -> Element {
+        let [mass, transfer, flow, elastic] =
+            [self.mass, self.transfer, self.flow, self.elastic].map(|matrix| matrix.map(|entry| entry.eps));
+        Element { mass, transfer, flow, elastic }
+    }
 }
 
 /// The elements of one cable, from the platform to the winch.
@@ -63,26 +100,37 @@ pub struct Vibration {
 impl Vibration {
     /// The problem of `robot` at rest in `statics`, for motion with the length rates `rates`.
     pub fn new(robot: &Robot, statics: &Statics, rates: &[LengthRates]) -> Self {
-        let material = Material::of(robot);
-        let mu = robot.mass_per_length;
-        let n = robot.elements as f64;
-        let chain = |(shape, rate): (&crate::mechanics::CableShape, &LengthRates)| {
-            let l = shape.length / n;
-            let elements = shape.forces.iter().enumerate().map(|(k, &t)| {
-                // Inflow of element k and its rate at v = 1: w = −k l̇, −(k+1) l̇ with l̇ = L'/n, l̈ = L''/n.
-                let inflow = |derivative: f64| [-(k as f64) * derivative / n, -((k + 1) as f64) * derivative / n];
-                Element {
-                    mass: element::mass(mu, l),
-                    transfer: element::transfer(mu, inflow(rate.first)),
-                    flow: element::flow_stiffness(mu, l, inflow(rate.first), inflow(rate.second)),
-                    elastic: element::elastic(material, robot.linearisation, l, t),
-                }
-            });
-            Chain { elements: elements.collect() }
+        let parameters = Parameters::of(robot);
+        let chain = |(shape, &rates): (&crate::mechanics::CableShape, &LengthRates)| {
+            let forces = shape.forces.iter().copied();
+            Chain { elements: Element::of_cable(robot, &parameters, shape.length, rates, forces).collect() }
         };
+        Self::of_chains(robot, statics.cables.iter().zip(rates).map(chain).collect(), robot.platform_mass)
+    }
+
+    /// The derivatives of M, C, K and D with respect to ln p, p the parameter `knob`, in the form of a problem; for
+    /// `robot` at rest in `statics` and motion along the unit vector `direction`. α and β are those of the robot.
+    ///
+    /// Exact, by dual numbers: the change of the static shapes, of L' and of L'' is in them. `None` where the pose is
+    /// singular. docs/theory.md section 12.
+    pub fn derivative(robot: &Robot, statics: &Statics, direction: Vec2, knob: Knob) -> Option<Self> {
+        let parameters = Parameters::along(robot, knob);
+        let cable = CableModel::with(robot, &parameters);
+        let chain = |[tx, ty, length]: [Dual2<Dual64>; 3]| {
+            let mut forces = Vec::with_capacity(robot.elements);
+            cable.walk([0.0.into(); 2], [tx.re, ty.re], length.re, |t, _| forces.push(t.into()));
+            let rates = LengthRates { first: length.v1, second: length.v2 };
+            let elements = Element::of_cable(robot, &parameters, length.re, rates, forces);
+            Chain { elements: elements.map(|element| element.derivative()).collect() }
+        };
+        let chains = paths(robot, &parameters, statics, direction)?.into_iter().map(chain).collect();
+        Some(Self::of_chains(robot, chains, parameters.platform_mass.eps))
+    }
+
+    fn of_chains(robot: &Robot, chains: Vec<Chain>, platform_mass: f64) -> Self {
         Self {
-            chains: statics.cables.iter().zip(rates).map(chain).collect(),
-            hub: Hub::Platform(robot.platform_mass),
+            chains,
+            hub: Hub::Platform(platform_mass),
             damping: robot.damping,
             isotropic: robot.linearisation == Linearisation::Secant,
         }

@@ -9,11 +9,11 @@ use crate::robot::{Robot, Strain};
 /// - [`Strain::Green`], energy ½ EA ε² with ε = ½(λ² − 1): N = ½ EA (λ³ − λ)
 /// - [`Strain::Engineering`], ε = λ − 1: N = EA (λ − 1)
 ///
-/// Source: docs/theory.md section 4; Green's law is that of the paper.
+/// For plain and dual numbers. Source: docs/theory.md section 4; Green's law is that of the paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Material {
+pub struct Material<D = f64> {
     /// EA in newtons, positive.
-    pub axial_stiffness: f64,
+    pub axial_stiffness: D,
     /// The strain measure.
     pub strain: Strain,
 }
@@ -23,31 +23,33 @@ impl Material {
     pub fn of(robot: &Robot) -> Self {
         Self { axial_stiffness: robot.axial_stiffness(), strain: robot.strain }
     }
+}
 
+impl<D: DualNum<Primitive = f64> + Copy> Material<D> {
     /// N(λ) in newtons.
-    pub fn force(&self, stretch: f64) -> f64 {
+    pub fn force(&self, stretch: D) -> D {
         match self.strain {
-            Strain::Green => 0.5 * self.axial_stiffness * stretch * (stretch - 1.0) * (stretch + 1.0),
+            Strain::Green => self.axial_stiffness * 0.5 * stretch * (stretch - 1.0) * (stretch + 1.0),
             Strain::Engineering => self.axial_stiffness * (stretch - 1.0),
         }
     }
 
     /// N'(λ) in newtons.
-    pub fn tangent(&self, stretch: f64) -> f64 {
+    pub fn tangent(&self, stretch: D) -> D {
         match self.strain {
-            Strain::Green => 0.5 * self.axial_stiffness * (3.0 * stretch * stretch - 1.0),
+            Strain::Green => self.axial_stiffness * 0.5 * (stretch * stretch * 3.0 - 1.0),
             Strain::Engineering => self.axial_stiffness,
         }
     }
 
-    /// The stretch λ ≥ 1 at the axial force N ≥ 0, the inverse of [`Self::force`], for plain and dual numbers.
+    /// The stretch λ ≥ 1 at the axial force N ≥ 0, the inverse of [`Self::force`].
     ///
-    /// Exact to rounding, with derivatives up to the second.
-    pub fn stretch<D: DualNum<Primitive = f64> + Copy>(&self, force: D) -> D {
+    /// Exact to rounding, with all derivatives that `D` carries.
+    pub fn stretch(&self, force: D) -> D {
         match self.strain {
             Strain::Engineering => force / self.axial_stiffness + 1.0,
             Strain::Green => {
-                let y = force * (2.0 / self.axial_stiffness);
+                let y = force * (self.axial_stiffness.recip() * 2.0);
                 let mut x = D::from(green_stretch(y.re()));
                 // The real part is exact; each Newton step makes one more order of derivatives exact.
                 for _ in 0..D::NDERIV {
@@ -95,7 +97,8 @@ mod tests {
     #[test]
     fn derivatives_of_stretch_are_those_of_the_inverse_function() {
         let material = Material { axial_stiffness: 6250.0, strain: Strain::Green };
-        let (stretch, first, second) = second_derivative(|n| material.stretch(n), 170.0);
+        let dual = Material { axial_stiffness: material.axial_stiffness.into(), strain: material.strain };
+        let (stretch, first, second): (f64, f64, f64) = second_derivative(|n| dual.stretch(n), 170.0);
         let tangent = material.tangent(stretch);
         let curvature = 3.0 * material.axial_stiffness * stretch; // N''(λ)
         assert!((first * tangent - 1.0).abs() < 1e-13, "{first} × {tangent}");

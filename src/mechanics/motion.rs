@@ -2,85 +2,103 @@
 //!
 //! p(σ) = p₀ + σ d. The statics F(z, σ) = 0 define z(σ), so J z' = −∂F/∂σ, and J z'' = −(the second derivative of
 //! F along z₀ + z' σ). Both right sides come from one evaluation of F in second-order dual numbers each, the tension
-//! law and the coupling of the cables through the platform included. docs/theory.md section 6.
+//! law and the coupling of the cables through the platform included. docs/theory.md section 6. The same in dual numbers
+//! of dual numbers gives what a parameter of the robot changes in z, z' and z'' (section 12).
 
 use nalgebra::{Const, SVector, ToTypenum};
-use num_dual::{Dual2_64, DualSVec64, jacobian};
+use num_dual::{Dual2, DualNum, DualSVec64, DualStruct, jacobian};
 
-use super::statics::{CableModel, prescribed_tension};
+use super::cable::{CableModel, prescribed_tension};
+use super::parameters::Parameters;
 use crate::mechanics::Statics;
 use crate::robot::{Robot, Vec2};
 
 /// The unstretched length's first and second derivative along the motion: L̇ = v L', L̈ = v² L'' at speed v.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LengthRates {
+pub struct LengthRates<D = f64> {
     /// L' = dL/dσ, dimensionless: positive where cable is paid out.
-    pub first: f64,
+    pub first: D,
     /// L'' = d²L/dσ², in 1/m.
-    pub second: f64,
+    pub second: D,
 }
 
 /// L' and L'' of every cable for a motion along the unit vector `direction` through the pose of `statics`.
 ///
 /// Exact (implicit differentiation), not finite differences. `None` where the pose is singular.
 pub fn length_rates(robot: &Robot, statics: &Statics, direction: Vec2) -> Option<Vec<LengthRates>> {
-    let cable = CableModel::of(robot);
-    let along = |j: usize| Dual2_64::new(statics.position[j], direction[j], 0.0);
-    let position = [along(0), along(1)];
-    let mut rates = vec![LengthRates { first: 0.0, second: 0.0 }; robot.cables.len()];
-    let mut load = [Dual2_64::from(0.0), Dual2_64::from(robot.platform_mass * robot.gravity)];
+    let paths = paths::<f64>(robot, &Parameters::of(robot), statics, direction)?;
+    let rates: Vec<_> = paths.iter().map(|[_, _, l]| LengthRates { first: l.v1, second: l.v2 }).collect();
+    rates.iter().all(|r| r.first.is_finite() && r.second.is_finite()).then_some(rates)
+}
+
+/// (t₀, L) of every cable to second order along the motion, and to the order of `D` in the `parameters`, the real parts
+/// of which are those of `robot`. `None` where the pose is singular.
+pub(super) fn paths<D: DualNum<Primitive = f64> + Copy>(
+    robot: &Robot,
+    parameters: &Parameters<D>,
+    statics: &Statics,
+    direction: Vec2,
+) -> Option<Vec<[Dual2<D>; 3]>> {
+    let fixed = statics.position;
+    let parameters = parameters.map(Dual2::from_re);
+    let cable = CableModel::with(robot, &parameters);
+    let position = [0, 1].map(|j| Dual2::new(fixed[j].into(), direction[j].into(), 0.0.into()));
+    let mut paths = vec![[Dual2::from(0.0); 3]; robot.cables.len()];
+    let mut load = [Dual2::from(0.0), parameters.platform_mass * parameters.gravity];
 
     for i in robot.prescribed() {
         let (anchor, law) = (robot.cables[i].anchor, robot.cables[i].tension);
         let shape = &statics.cables[i];
-        let z = follow(
+        let path = follow(
             SVector::from([shape.t0.x, shape.t0.y, shape.length]),
             |z| {
-                let fixed = position.map(|p| DualSVec64::from(p.re));
+                let fixed = [fixed.x.into(), fixed.y.into()];
                 let tension = prescribed_tension(law, fixed);
-                SVector::from(cable.prescribed_residual(fixed, anchor, tension, z.into()))
+                SVector::from(CableModel::of(robot).prescribed_residual(fixed, anchor, tension, z.into()))
             },
             |z| {
-                let tension = prescribed_tension(law, position);
+                let tension = prescribed_tension(law, position) * parameters.tension[i];
                 SVector::from(cable.prescribed_residual(position, anchor, tension, z.into()))
             },
         )?;
-        rates[i] = LengthRates { first: z[2].v1, second: z[2].v2 };
-        let force = cable.platform_force([z[0], z[1]], z[2]);
+        paths[i] = path.into();
+        let force = cable.platform_force([path[0], path[1]], path[2]);
         load = [load[0] - force[0], load[1] - force[1]];
     }
 
     let pair = robot.pair();
     let anchors = pair.map(|i| robot.cables[i].anchor);
     let [a, b] = pair.map(|i| &statics.cables[i]);
-    let z = follow(
+    let path: [_; 6] = follow(
         SVector::from([a.t0.x, a.t0.y, a.length, b.t0.x, b.t0.y, b.length]),
         |z| {
-            let fixed = |v: [Dual2_64; 2]| v.map(|c| DualSVec64::from(c.re));
-            SVector::from(cable.pair_residual(fixed(position), anchors, fixed(load), z.into()))
+            let (fixed, load) = ([fixed.x.into(), fixed.y.into()], load.map(|force| force.re().into()));
+            SVector::from(CableModel::of(robot).pair_residual(fixed, anchors, load, z.into()))
         },
         |z| SVector::from(cable.pair_residual(position, anchors, load, z.into())),
-    )?;
-    for (i, k) in pair.into_iter().zip([2, 5]) {
-        rates[i] = LengthRates { first: z[k].v1, second: z[k].v2 };
+    )?
+    .into();
+    for (i, path) in pair.into_iter().zip(path.chunks_exact(3)) {
+        paths[i].copy_from_slice(path);
     }
-    rates.iter().all(|r| r.first.is_finite() && r.second.is_finite()).then_some(rates)
+    Some(paths)
 }
 
-/// z(σ) to second order around the solution `z`, given F over z at σ = 0 and F over z(σ).
-fn follow<const N: usize>(
+/// The solution of F(z) = 0 in the dual numbers `T`, from its real parts `z`, given F over the unknowns alone and F with
+/// all that varies. Each Newton step with the real Jacobian makes one more order of the derivatives exact.
+fn follow<T: DualNum<Primitive = f64> + Copy, const N: usize>(
     z: SVector<f64, N>,
     over_unknowns: impl Fn(SVector<DualSVec64<N>, N>) -> SVector<DualSVec64<N>, N>,
-    along_motion: impl Fn(SVector<Dual2_64, N>) -> SVector<Dual2_64, N>,
-) -> Option<SVector<Dual2_64, N>>
+    residual: impl Fn(SVector<T, N>) -> SVector<T, N>,
+) -> Option<SVector<T, N>>
 where
     Const<N>: ToTypenum + nalgebra::DimMin<Const<N>, Output = Const<N>>,
 {
-    let lu = jacobian(over_unknowns, &z).1.lu();
-    let mut path = z.map(Dual2_64::from_re);
-    let first = lu.solve(&along_motion(path).map(|f| -f.v1))?;
-    path.zip_apply(&first, |p, d| p.v1 = d);
-    let second = lu.solve(&along_motion(path).map(|f| -f.v2))?;
-    path.zip_apply(&second, |p, d| p.v2 = d);
+    let inverse = jacobian(over_unknowns, &z).1.lu().try_inverse()?;
+    let mut path = z.map(T::from);
+    for _ in 0..T::NDERIV {
+        let excess = residual(path);
+        path = SVector::from_fn(|i, _| (0..N).fold(path[i], |sum, j| sum - excess[j] * inverse[(i, j)]));
+    }
     Some(path)
 }

@@ -11,10 +11,10 @@
 //! the right one. If not, the weight is turned on in steps. docs/theory.md section 5 has the argument.
 
 use nalgebra::{Const, OMatrix, SVector, ToTypenum};
-use num_dual::{DualNum, DualSVec64, jacobian};
+use num_dual::{DualSVec64, jacobian};
 
-use crate::mechanics::Material;
-use crate::robot::{Robot, TensionLaw, Vec2};
+use super::cable::{CableModel, prescribed_tension};
+use crate::robot::{Robot, Vec2};
 
 /// The platform is "at" an anchor when nearer than this, in metres.
 const AT_ANCHOR: f64 = 1e-9;
@@ -150,7 +150,7 @@ pub struct Failure {
 /// # Errors
 /// [`Infeasible`] with the reason and the cable; `NotConverged` where an iteration failed.
 pub fn solve(robot: &Robot, position: Vec2) -> Result<Statics, Failure> {
-    let cable = CableModel::of(robot);
+    let cable = CableModel::<f64>::of(robot);
     let mut shapes: Vec<Option<CableShape>> = vec![None; robot.cables.len()];
     // Every cable that has a shape gets one, so that as much as possible can be drawn; the first fault counts.
     let mut fault = None;
@@ -178,108 +178,14 @@ pub fn solve(robot: &Robot, position: Vec2) -> Result<Statics, Failure> {
 
 /// What the equilibrium cables have to balance: minus the platform's weight and the prescribed cables' forces.
 fn load<'a>(robot: &Robot, prescribed: impl Iterator<Item = &'a CableShape>) -> Vec2 {
-    let cable = CableModel::of(robot);
+    let cable = CableModel::<f64>::of(robot);
     let own_weight = Vec2::new(0.0, robot.platform_mass * robot.gravity);
     prescribed
         .fold(own_weight, |load, shape| load - Vec2::from(cable.platform_force([shape.t0.x, shape.t0.y], shape.length)))
 }
 
-/// What a cable's shape depends on besides (t₀, L).
-#[derive(Clone, Copy)]
-pub(super) struct CableModel {
-    material: Material,
-    elements: usize,
-    /// Weight per unstretched length, N/m.
-    weight: f64,
-}
-
-impl CableModel {
-    pub(super) fn of(robot: &Robot) -> Self {
-        Self { material: Material::of(robot), elements: robot.elements, weight: robot.weight_per_length() }
-    }
-
-    /// The same cable with its weight scaled.
-    fn with_weight(self, part: f64) -> Self {
-        Self { weight: self.weight * part, ..self }
-    }
-
-    /// Walks from the platform to the winch: calls `visit` with each element's force and outer node; gives the end.
-    fn walk<D: DualNum<Primitive = f64> + Copy>(
-        &self,
-        start: [D; 2],
-        t0: [D; 2],
-        length: D,
-        mut visit: impl FnMut([D; 2], [D; 2]),
-    ) -> [D; 2] {
-        let l = length / self.elements as f64;
-        let (mut r, mut t) = (start, t0);
-        for _ in 0..self.elements {
-            let force = (t[0] * t[0] + t[1] * t[1]).sqrt();
-            let reach = l * self.material.stretch(force) / force;
-            r = [r[0] + reach * t[0], r[1] + reach * t[1]];
-            visit(t, r);
-            t[1] += l * self.weight;
-        }
-        r
-    }
-
-    /// By how much the cable's end misses its anchor, in m. The walk starts at zero, so that a platform near the anchor
-    /// and far from the origin costs no digits.
-    fn miss<D: DualNum<Primitive = f64> + Copy>(
-        &self,
-        position: [D; 2],
-        anchor: Vec2,
-        t0: [D; 2],
-        length: D,
-    ) -> [D; 2] {
-        let end = self.walk([D::from(0.0); 2], t0, length, |_, _| {});
-        [end[0] + (position[0] - anchor.x), end[1] + (position[1] - anchor.y)]
-    }
-
-    /// The force of the cable on the platform, t₀ − (0, μ g l/2).
-    pub(super) fn platform_force<D: DualNum<Primitive = f64> + Copy>(&self, t0: [D; 2], length: D) -> [D; 2] {
-        [t0[0], t0[1] - length * (0.5 * self.weight / self.elements as f64)]
-    }
-
-    /// Residual of a prescribed cable with the unknowns (t₀, L): its end's distance from the anchor (m), and the
-    /// excess of its tension at the platform (N).
-    pub(super) fn prescribed_residual<D: DualNum<Primitive = f64> + Copy>(
-        &self,
-        position: [D; 2],
-        anchor: Vec2,
-        tension: D,
-        z: [D; 3],
-    ) -> [D; 3] {
-        let [tx, ty, length] = z;
-        let [dx, dy] = self.miss(position, anchor, [tx, ty], length);
-        let [fx, fy] = self.platform_force([tx, ty], length);
-        [dx, dy, (fx * fx + fy * fy).sqrt() - tension]
-    }
-
-    /// Residual of the equilibrium pair with the unknowns (t₀, L) of both: the distances of the ends from their
-    /// anchors (m), and the excess of their force on the platform over `load` (N).
-    pub(super) fn pair_residual<D: DualNum<Primitive = f64> + Copy>(
-        &self,
-        position: [D; 2],
-        anchors: [Vec2; 2],
-        load: [D; 2],
-        z: [D; 6],
-    ) -> [D; 6] {
-        let mut residual = [D::from(0.0); 6];
-        residual[4] = -load[0];
-        residual[5] = -load[1];
-        for (i, anchor) in anchors.into_iter().enumerate() {
-            let (t0, length) = ([z[3 * i], z[3 * i + 1]], z[3 * i + 2]);
-            let miss = self.miss(position, anchor, t0, length);
-            let force = self.platform_force(t0, length);
-            for j in 0..2 {
-                residual[2 * i + j] = miss[j];
-                residual[4 + j] += force[j];
-            }
-        }
-        residual
-    }
-
+impl CableModel<f64> {
+    /// The shape of the cable that leaves the platform with t₀.
     fn shape(&self, position: Vec2, t0: Vec2, length: f64) -> CableShape {
         let mut nodes = vec![position];
         let mut forces = Vec::with_capacity(self.elements);
@@ -300,19 +206,6 @@ impl CableModel {
     }
 }
 
-/// The tension of a prescribed cable at `position`, in newtons, for plain and dual numbers.
-pub(super) fn prescribed_tension<D: DualNum<Primitive = f64> + Copy>(law: TensionLaw, position: [D; 2]) -> D {
-    match law {
-        TensionLaw::Equilibrium => D::from(0.0),
-        TensionLaw::Constant(tension) => D::from(tension),
-        TensionLaw::Hypot { horizontal, vertical } => {
-            let part = |c: [f64; 3]| position[0] * c[1] + position[1] * c[2] + c[0];
-            let (h, v) = (part(horizontal), part(vertical));
-            (h * h + v * v).sqrt()
-        }
-    }
-}
-
 /// The vector from the platform to the anchor of cable i and its length.
 fn chord(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), Infeasible> {
     let chord = robot.cables[i].anchor - position;
@@ -322,7 +215,7 @@ fn chord(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), Infeasi
 
 /// (t₀, L) of the prescribed cable i.
 fn prescribed(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), StaticsError> {
-    let cable = CableModel::of(robot);
+    let (cable, dual_cable) = (CableModel::<f64>::of(robot), CableModel::of(robot));
     let (chord, distance) = chord(robot, i, position)?;
     let tension = prescribed_tension(robot.cables[i].tension, position.into());
     if !(tension > 0.0 && tension.is_finite()) {
@@ -334,7 +227,12 @@ fn prescribed(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), St
     let residual = |part: f64, z: SVector<DualSVec64<3>, 3>| {
         let tension = DualSVec64::from(tension);
         let position = [DualSVec64::from(position.x), DualSVec64::from(position.y)];
-        SVector::from(cable.with_weight(part).prescribed_residual(position, robot.cables[i].anchor, tension, z.into()))
+        SVector::from(dual_cable.with_weight(part).prescribed_residual(
+            position,
+            robot.cables[i].anchor,
+            tension,
+            z.into(),
+        ))
     };
     let z = turn_weight_on(start, &scale, residual, |z| z[2] > 0.0).map_err(|stop| match stop {
         Stop::Fold { .. } => Infeasible::TooSlack { cable: i, tension }.into(),
@@ -345,7 +243,7 @@ fn prescribed(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), St
 
 /// (t₀, L) of the two equilibrium cables that together pull with `load`.
 fn pair(robot: &Robot, position: Vec2, load: Vec2) -> Result<[(Vec2, f64); 2], StaticsError> {
-    let cable = CableModel::of(robot);
+    let (cable, dual_cable) = (CableModel::<f64>::of(robot), CableModel::of(robot));
     let [a, b] = robot.pair();
     let (chord_a, distance_a) = chord(robot, a, position)?;
     let (chord_b, distance_b) = chord(robot, b, position)?;
@@ -371,7 +269,7 @@ fn pair(robot: &Robot, position: Vec2, load: Vec2) -> Result<[(Vec2, f64); 2], S
     let anchors = [robot.cables[a].anchor, robot.cables[b].anchor];
     let residual = |part: f64, z: SVector<DualSVec64<6>, 6>| {
         let dual = |v: Vec2| [DualSVec64::from(v.x), DualSVec64::from(v.y)];
-        SVector::from(cable.with_weight(part).pair_residual(dual(position), anchors, dual(load), z.into()))
+        SVector::from(dual_cable.with_weight(part).pair_residual(dual(position), anchors, dual(load), z.into()))
     };
     let z = turn_weight_on(start, &scale, residual, |z| z[2] > 0.0 && z[5] > 0.0).map_err(|stop| match stop {
         Stop::Fold { last } => {
@@ -479,6 +377,7 @@ where
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mechanics::Material;
     use crate::robot::paper;
 
     /// The platform near an anchor and far from the origin: positions have 1e-15 m of rounding, the cable 1e-6 m.

@@ -8,7 +8,7 @@ use crate::robot::{Motion, Robot};
 use crate::stability::{
     Critical, CriticalSearch, Eigenproblem, Kind, Method, NotConverged, Outcome, Spectrum, unstable_eigenvalues,
 };
-use crate::study::Local;
+use crate::study::{Knob, Local, Sensitivity};
 
 /// The name and version of the format.
 pub const SCHEMA: &str = "tautline/analysis/1";
@@ -78,6 +78,70 @@ pub enum KindReport {
     Flutter,
     /// A displacement grows without oscillating.
     Divergence,
+}
+
+/// What one parameter does to the critical speed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SensitivityReport {
+    /// The parameter p.
+    pub knob: KnobReport,
+    /// d ln v/d ln p of the critical speed v: percent per percent.
+    pub speed: f64,
+    /// The same of the frequency of the crossing eigenvalue; none for divergence.
+    pub frequency: Option<f64>,
+}
+
+/// A parameter of the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum KnobReport {
+    /// E.
+    YoungsModulus,
+    /// A.
+    Area,
+    /// μ.
+    MassPerLength,
+    /// m.
+    PlatformMass,
+    /// A factor on the prescribed tension of this cable, 1-based.
+    Tension(usize),
+    /// α.
+    Alpha,
+    /// β.
+    Beta,
+    /// g.
+    Gravity,
+}
+
+impl std::fmt::Display for KnobReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::YoungsModulus => f.write_str("youngs_modulus"),
+            Self::Area => f.write_str("area"),
+            Self::MassPerLength => f.write_str("mass_per_length"),
+            Self::PlatformMass => f.write_str("platform_mass"),
+            Self::Tension(cable) => write!(f, "tension_{cable}"),
+            Self::Alpha => f.write_str("alpha"),
+            Self::Beta => f.write_str("beta"),
+            Self::Gravity => f.write_str("gravity"),
+        }
+    }
+}
+
+impl From<&Sensitivity> for SensitivityReport {
+    fn from(&Sensitivity { knob, speed, frequency }: &Sensitivity) -> Self {
+        let knob = match knob {
+            Knob::YoungsModulus => KnobReport::YoungsModulus,
+            Knob::Area => KnobReport::Area,
+            Knob::MassPerLength => KnobReport::MassPerLength,
+            Knob::PlatformMass => KnobReport::PlatformMass,
+            Knob::Tension(cable) => KnobReport::Tension(cable + 1),
+            Knob::Alpha => KnobReport::Alpha,
+            Knob::Beta => KnobReport::Beta,
+            Knob::Gravity => KnobReport::Gravity,
+        };
+        Self { knob, speed, frequency }
+    }
 }
 
 impl CableReport {

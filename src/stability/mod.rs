@@ -10,6 +10,7 @@ mod crossing;
 mod dense;
 mod jet;
 mod modes;
+mod sensitivity;
 mod spectrum;
 mod undamped;
 
@@ -19,6 +20,7 @@ pub use count::unstable_eigenvalues;
 pub use critical::{Critical, CriticalSearch, Kind, Method, Outcome, SCAN_STEP, Sample, structured};
 pub use dense::Eigenproblem;
 pub use modes::{Mode, Polarisation, mode};
+pub use sensitivity::{Crossing, NoSensitivity, Shift};
 pub use spectrum::{ModeValue, Spectrum};
 
 /// An eigenvalue iteration did not converge.

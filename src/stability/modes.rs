@@ -77,7 +77,7 @@ pub fn mode(vibration: &Vibration, speed: f64, eigenvalue: C64, polarisation: Po
 }
 
 /// A frequency of the problem, so that a zero eigenvalue has something to be small against.
-fn frequency_scale(vibration: &Vibration) -> f64 {
+pub(super) fn frequency_scale(vibration: &Vibration) -> f64 {
     let element = vibration.chains[0].elements[0];
     1e-3 * (element.elastic.amax() / element.mass.amax()).sqrt()
 }

@@ -26,10 +26,13 @@ pub mod campbell;
 pub mod convergence;
 mod grid;
 mod local;
+mod sensitivity;
 mod studies;
 mod verdict;
 
+pub use crate::mechanics::Knob;
 pub use grid::{Grid, Line, evenly, workspace};
 pub use local::Local;
+pub use sensitivity::{Sensitivity, sensitivities};
 pub use studies::{Answer, Asked, Study};
 pub use verdict::{Directions, Verdict, compass, verdict};

@@ -9,29 +9,39 @@ use super::robot;
 use crate::app::Facts;
 use crate::app::canvas;
 use crate::app::command::Command;
-use crate::app::fields::{self, Field};
-use crate::app::state::Document;
+use crate::app::fields::{self, Field, Number};
+use crate::app::state::{Document, UiState};
 use crate::robot::{Linearisation, Strain, TensionLaw};
 use crate::scenario::{Scenario, presets};
 
 /// Room for a control's name, in points.
 const LABEL: Vec2 = Vec2::new(130.0, 18.0);
 
-/// Draws the controls; a change becomes one command. `unlocked`: whether winches can be dragged.
-pub fn ui(unlocked: &mut bool, ui: &mut Ui, Facts { document, settings, .. }: Facts<'_>, commands: &mut Vec<Command>) {
-    let original = &document.original;
-    let mut edited = document.scenario.clone();
+/// The scenario on its way through the controls.
+pub(super) struct Sheet<'a> {
+    /// With what has been changed so far.
+    pub(super) edited: Scenario,
+    /// What values reset to.
+    pub(super) original: &'a Scenario,
+    /// The control to bring into view, until it has been drawn.
+    pub(super) wanted: Option<Number>,
+}
+
+/// Draws the controls; a change becomes one command.
+pub fn ui(state: &mut UiState, ui: &mut Ui, Facts { document, settings, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+    let mut sheet = Sheet { edited: document.scenario.clone(), original: &document.original, wanted: state.wanted };
     examples(ui, document, commands);
     let [x, y] = fields::position(canvas::frame(&document.scenario));
-    group(ui, "Motion", &mut edited, original, &[fields::SPEED, fields::DIRECTION, x, y]);
+    group(ui, "Motion", &mut sheet, &[fields::SPEED, fields::DIRECTION, x, y]);
     let body = fields::BODY.map(|field| field.in_units_of(settings));
-    group(ui, "Cables and platform", &mut edited, original, &body);
-    group(ui, "Damping and mesh", &mut edited, original, &fields::MODEL);
-    choices(ui, &mut edited);
-    tensions(ui, &mut edited, original);
-    robot::ui(ui, unlocked, &mut edited, original);
-    if edited != document.scenario {
-        commands.push(Command::Edit(Box::new(edited)));
+    group(ui, "Cables and platform", &mut sheet, &body);
+    group(ui, "Damping and mesh", &mut sheet, &fields::MODEL);
+    choices(ui, &mut sheet.edited);
+    tensions(ui, &mut sheet);
+    robot::ui(ui, &mut state.unlocked, &mut sheet);
+    state.wanted = sheet.wanted;
+    if sheet.edited != document.scenario {
+        commands.push(Command::Edit(Box::new(sheet.edited)));
     }
 }
 
@@ -49,17 +59,22 @@ fn examples(ui: &mut Ui, document: &Document, commands: &mut Vec<Command>) {
         });
         list.response.labelled_by(label.id);
     });
+    let chosen = presets::PRESETS.iter().find(|preset| document.scenario.name.as_deref() == Some(preset.title));
+    if let Some(preset) = chosen {
+        ui.add(Label::new(RichText::new(preset.description).weak().small()).wrap());
+    }
 }
 
-fn group(ui: &mut Ui, title: &str, edited: &mut Scenario, original: &Scenario, list: &[Field]) {
+fn group(ui: &mut Ui, title: &str, sheet: &mut Sheet<'_>, list: &[Field]) {
     ui.add_space(6.0);
     ui.label(RichText::new(title).strong());
-    rows(ui, edited, original, list);
+    rows(ui, sheet, list);
 }
 
-pub(super) fn rows(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, list: &[Field]) {
+/// A row for each number.
+pub(super) fn rows(ui: &mut Ui, sheet: &mut Sheet<'_>, list: &[Field]) {
     for field in list {
-        ui.push_id(field.number_id(), |ui| row(ui, edited, original, field));
+        ui.push_id(field.number_id(), |ui| row(ui, sheet, field));
     }
 }
 
@@ -70,8 +85,8 @@ impl Field {
 }
 
 /// Name, slider, typed value, reset.
-fn row(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, field: &Field) {
-    let value = field.number.get(edited);
+fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
+    let value = field.number.get(&sheet.edited);
     let mut shown = value / field.factor;
     let before = shown;
     ui.horizontal(|ui| {
@@ -94,7 +109,12 @@ fn row(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, field: &Field) {
         if field.integer {
             slider = slider.step_by(1.0);
         }
-        ui.add(slider).labelled_by(name.id);
+        let slider = ui.add(slider).labelled_by(name.id);
+        if sheet.wanted == Some(field.number) {
+            sheet.wanted = None;
+            slider.request_focus();
+            slider.scroll_to_me(Some(Align::Center));
+        }
         let suffix = if field.unit.is_empty() { String::new() } else { format!(" {}", field.unit) };
         let mut typed = DragValue::new(&mut shown)
             .speed(if field.logarithmic { 0.01 * before.abs().max(1e-4) } else { 0.002 * (high - low) })
@@ -105,15 +125,15 @@ fn row(ui: &mut Ui, edited: &mut Scenario, original: &Scenario, field: &Field) {
             typed = typed.speed(0.05);
         }
         ui.add_sized([84.0, 18.0], typed).labelled_by(name.id);
-        let first = field.number.get(original);
-        let differs = field.number.is_in(original) && !same(value, first);
+        let first = field.number.get(sheet.original);
+        let differs = field.number.is_in(sheet.original) && !same(value, first);
         let reset = ui.add_enabled(differs, Button::new("↺").small().frame(false));
         if reset.on_hover_text(format!("Back to {} {}", round(first / field.factor), field.unit)).clicked() {
             shown = first / field.factor;
         }
     });
     if !same(shown, before) {
-        field.number.set(edited, shown * field.factor);
+        field.number.set(&mut sheet.edited, shown * field.factor);
     }
 }
 
@@ -150,32 +170,37 @@ fn choices(ui: &mut Ui, edited: &mut Scenario) {
 }
 
 /// The prescribed cables: a constant, or the six coefficients of a law.
-fn tensions(ui: &mut Ui, edited: &mut Scenario, original: &Scenario) {
+fn tensions(ui: &mut Ui, sheet: &mut Sheet<'_>) {
     ui.add_space(6.0);
     ui.label(RichText::new("Tension of the stiffening cables").strong());
-    for cable in 0..edited.cables.len() {
-        let law = edited.cables[cable].tension;
+    for cable in 0..sheet.edited.cables.len() {
+        let law = sheet.edited.cables[cable].tension;
         let kind = match law {
             TensionLaw::Equilibrium => continue,
             TensionLaw::Constant(tension) => format!("{} N", round(tension)),
             TensionLaw::Hypot { .. } => "by law".into(),
         };
-        CollapsingHeader::new(format!("Cable {}: {kind}", cable + 1)).id_salt(("tension", cable)).show(ui, |ui| {
+        let open = matches!(sheet.wanted, Some(Number::Tension(of) | Number::Horizontal(of, _)) if of == cable)
+            .then_some(true);
+        let header =
+            CollapsingHeader::new(format!("Cable {}: {kind}", cable + 1)).id_salt(("tension", cable)).open(open);
+        header.show(ui, |ui| {
             ui.horizontal(|ui| {
-                let tension = tension_here(edited, cable);
+                let tension = tension_here(&sheet.edited, cable);
                 let constant = matches!(law, TensionLaw::Constant(_));
                 if ui.radio(constant, "Constant").clicked() && !constant {
-                    edited.cables[cable].tension = TensionLaw::Constant(tension);
+                    sheet.edited.cables[cable].tension = TensionLaw::Constant(tension);
                 }
                 if ui.radio(!constant, "Law").on_hover_text(fields::law(0)[0].meaning).clicked() && constant {
                     let vertical = [0.0, 0.0, 0.0];
-                    edited.cables[cable].tension = TensionLaw::Hypot { horizontal: [tension, 0.0, 0.0], vertical };
+                    sheet.edited.cables[cable].tension =
+                        TensionLaw::Hypot { horizontal: [tension, 0.0, 0.0], vertical };
                 }
                 ui.weak(format!("{tension:.1} N here"));
             });
-            match edited.cables[cable].tension {
-                TensionLaw::Constant(_) => rows(ui, edited, original, &[fields::tension(cable)]),
-                _ => rows(ui, edited, original, &fields::law(cable)),
+            match sheet.edited.cables[cable].tension {
+                TensionLaw::Constant(_) => rows(ui, sheet, &[fields::tension(cable)]),
+                _ => rows(ui, sheet, &fields::law(cable)),
             }
         });
     }

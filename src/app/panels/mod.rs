@@ -6,6 +6,7 @@ pub mod controls;
 pub mod directions;
 pub mod eigenvalues;
 pub mod growth;
+pub mod knobs;
 pub mod line;
 pub mod mesh;
 pub mod modes;

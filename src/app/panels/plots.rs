@@ -2,7 +2,7 @@
 
 use eframe::egui::{Rect, Slider, Ui};
 
-use super::{campbell, directions, eigenvalues, growth, line, mesh, modes};
+use super::{campbell, directions, eigenvalues, growth, knobs, line, mesh, modes};
 use crate::app::Facts;
 use crate::app::command::Command;
 use crate::app::state::{Playback, Plot, UiState};
@@ -10,7 +10,7 @@ use crate::compute::protocol::{ModeChoice, Which};
 use crate::robot::Linearisation;
 
 /// All plots with their names.
-const TABS: [(Plot, &str); 7] = [
+const TABS: [(Plot, &str); 8] = [
     (Plot::Eigenvalues, "Eigenvalues"),
     (Plot::Growth, "Growth rate"),
     (Plot::Modes, "Modes"),
@@ -18,6 +18,7 @@ const TABS: [(Plot, &str); 7] = [
     (Plot::Directions, "Directions"),
     (Plot::Campbell, "Campbell"),
     (Plot::Mesh, "Mesh"),
+    (Plot::Knobs, "Knobs"),
 ];
 
 /// Draws the tabs, the open plot and the playback. Gives where the plot is.
@@ -44,6 +45,7 @@ pub fn ui(
         Plot::Directions => directions::ui(ui, facts, commands),
         Plot::Campbell => campbell::ui(joined, &mut state.campbell_hz, ui, facts, commands),
         Plot::Mesh => mesh::ui(ui, facts, commands),
+        Plot::Knobs => knobs::ui(ui, state, facts),
     }
     Rect::from_min_max(top, ui.min_rect().max)
 }

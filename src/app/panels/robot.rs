@@ -2,32 +2,33 @@
 
 use eframe::egui::{Button, CollapsingHeader, ComboBox, Ui};
 
-use super::controls::rows;
+use super::controls::{Sheet, rows};
 use crate::app::{canvas, fields};
 use crate::robot::{CABLES, TensionLaw};
 use crate::scenario::Scenario;
 use crate::scenario::v1::Cable;
 
 /// Draws the controls.
-pub fn ui(ui: &mut Ui, unlocked: &mut bool, edited: &mut Scenario, original: &Scenario) {
+pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
     ui.add_space(6.0);
     CollapsingHeader::new("Layout of the robot").show(ui, |ui| {
         ui.checkbox(unlocked, "Unlock the winches")
             .on_hover_text("Winches can then be dragged on the canvas, or moved by arrow keys");
-        frame(ui, edited);
+        frame(ui, &mut sheet.edited);
         ui.horizontal_wrapped(|ui| {
             ui.label("At equilibrium").on_hover_text("The tensions of these two cables hold the platform in balance");
-            let pair = equilibrium(edited);
+            let pair = equilibrium(&sheet.edited);
             for place in 0..pair.len().min(2) {
-                partner(ui, edited, &pair, place);
+                partner(ui, &mut sheet.edited, &pair, place);
             }
         });
-        let count = edited.cables.len();
+        let count = sheet.edited.cables.len();
         let mut removed = None;
         for cable in 0..count {
             CollapsingHeader::new(format!("Winch {}", cable + 1)).id_salt(("winch", cable)).show(ui, |ui| {
-                rows(ui, edited, original, &fields::anchor(cable, canvas::frame(edited)));
-                let reason = why_it_stays(edited, cable);
+                let frame = canvas::frame(&sheet.edited);
+                rows(ui, sheet, &fields::anchor(cable, frame));
+                let reason = why_it_stays(&sheet.edited, cable);
                 let button = ui.add_enabled(reason.is_none(), Button::new(format!("Remove cable {}", cable + 1)));
                 if button.on_disabled_hover_text(reason.unwrap_or_default()).clicked() {
                     removed = Some(cable);
@@ -35,12 +36,13 @@ pub fn ui(ui: &mut Ui, unlocked: &mut bool, edited: &mut Scenario, original: &Sc
             });
         }
         if let Some(cable) = removed {
-            edited.cables.remove(cable);
+            sheet.edited.cables.remove(cable);
         }
         let full = format!("A robot has at most {} cables here.", CABLES.end());
         let button = ui.add_enabled(count < *CABLES.end(), Button::new("Add a cable"));
         if button.on_disabled_hover_text(full).clicked() {
-            edited.cables.push(another(edited));
+            let cable = another(&sheet.edited);
+            sheet.edited.cables.push(cable);
         }
     });
 }

@@ -134,7 +134,7 @@ pub fn wanted(scenario: &Scenario, state: &UiState, plot: Option<Plot>, critical
             StudyChoice::Campbell { to: highest_speed(scenario.motion.speed, critical), count: SPEEDS }
         }
         Some(Plot::Mesh) => StudyChoice::Convergence { counts: meshes(scenario.elements_per_cable), max_speed },
-        Some(Plot::Eigenvalues | Plot::Growth | Plot::Modes) | None => return wishes,
+        Some(Plot::Eigenvalues | Plot::Growth | Plot::Modes | Plot::Knobs) | None => return wishes,
     };
     wishes.push(Wish::new(scenario, study));
     wishes

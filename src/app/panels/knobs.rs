@@ -1,0 +1,165 @@
+//! Which knob to turn: by how much the critical speed changes with each parameter.
+
+use eframe::egui::{Align2, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
+
+use super::{STALE, explain};
+use crate::app::Facts;
+use crate::app::fields::Number;
+use crate::app::state::UiState;
+use crate::app::theme;
+use crate::robot::TensionLaw;
+use crate::scenario::Scenario;
+use crate::scenario::report::{KnobReport, SensitivityReport};
+
+/// Height of a bar with its room, in points.
+const ROW: f32 = 26.0;
+/// Room for names and for values.
+const NAME: f32 = 122.0;
+const VALUE: f32 = 58.0;
+
+/// Draws the bars; a click goes to the control.
+pub fn ui(ui: &mut Ui, state: &mut UiState, Facts { document, answers, pinned, .. }: Facts<'_>) {
+    let Some((found, current)) = answers.sensitivities() else {
+        ui.weak("Not computed yet.");
+        return;
+    };
+    ui.weak(if current {
+        "Percent of critical speed per percent of each value. Click a bar to turn it."
+    } else {
+        STALE
+    });
+    explain(
+        ui,
+        "How much the critical speed at this pose changes when one value grows by one percent and all others stay: to \
+         the right it rises, to the left it falls. The numbers are derivatives at the present design, exact for small \
+         changes; a large change may bring another mode to the front. A tension's bar is for all of its law at once.",
+    );
+    let mut found = match found {
+        Ok(found) => found.clone(),
+        Err(reason) => {
+            ui.label(reason);
+            return;
+        }
+    };
+    found.sort_by(|a, b| b.speed.abs().total_cmp(&a.speed.abs()));
+    let largest = found.first().map_or(1.0, |first| first.speed.abs()).max(1e-12);
+    let before = pinned.and_then(|pinned| pinned.sensitivities());
+    for one in &found {
+        let then = before.and_then(|all| all.iter().find(|other| other.knob == one.knob)).map(|other| other.speed);
+        if bar(ui, one, largest, then, current) {
+            state.reveal(control(one.knob, &document.scenario));
+        }
+    }
+}
+
+/// One bar; whether it was clicked.
+fn bar(ui: &mut Ui, one: &SensitivityReport, largest: f64, then: Option<f64>, current: bool) -> bool {
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
+    let name = name(one.knob);
+    let value = format!("{:+.3}", one.speed);
+    let text = format!("{name}: {value} % per percent");
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &text));
+    let visuals = ui.visuals();
+    let painter = ui.painter_at(rect);
+    if response.hovered() || response.has_focus() {
+        painter.rect_filled(rect, 3.0, visuals.widgets.hovered.weak_bg_fill);
+    }
+    let colour = match (current, one.speed > 0.0) {
+        (false, _) => visuals.weak_text_color(),
+        (true, true) => theme::calm(visuals),
+        (true, false) => theme::warning(visuals),
+    };
+    let font = FontId::proportional(13.0);
+    painter.text(
+        rect.left_center() + Vec2::new(4.0, 0.0),
+        Align2::LEFT_CENTER,
+        &name,
+        font.clone(),
+        visuals.text_color(),
+    );
+    painter.text(rect.right_center() - Vec2::new(4.0, 0.0), Align2::RIGHT_CENTER, value, font, visuals.text_color());
+    let room = Rect::from_min_max(rect.min + Vec2::new(NAME, 0.0), rect.max - Vec2::new(VALUE, 0.0));
+    let middle = room.center().x;
+    #[expect(clippy::cast_possible_truncation)] // A part of one.
+    let end = |speed: f64| middle + 0.5 * room.width() * (speed / largest).clamp(-1.0, 1.0) as f32;
+    let y = room.y_range();
+    let drawn =
+        Rect::from_x_y_ranges(middle.min(end(one.speed))..=middle.max(end(one.speed)), y.min + 5.0..=y.max - 5.0);
+    painter.rect_filled(drawn, 2.0, colour);
+    painter.vline(middle, y, Stroke::new(1.0, visuals.weak_text_color()));
+    if let Some(then) = then {
+        painter.vline(end(then), y, Stroke::new(2.0, theme::pinned(visuals)));
+    }
+    let frequency = one.frequency.map_or_else(String::new, |change| format!("\nFrequency {change:+.3} % per percent"));
+    response.on_hover_text(format!("Critical speed {:+.4} % per percent{frequency}", one.speed)).clicked()
+}
+
+fn name(knob: KnobReport) -> String {
+    match knob {
+        KnobReport::YoungsModulus => "E, Young's mod.".into(),
+        KnobReport::Area => "A, area".into(),
+        KnobReport::MassPerLength => "μ, cable mass".into(),
+        KnobReport::PlatformMass => "m, platform".into(),
+        KnobReport::Tension(cable) => format!("T, cable {cable}"),
+        KnobReport::Alpha => "α, damping".into(),
+        KnobReport::Beta => "β, damping".into(),
+        KnobReport::Gravity => "g, gravity".into(),
+    }
+}
+
+/// The control that turns a knob: of a tension law its first coefficient.
+fn control(knob: KnobReport, scenario: &Scenario) -> Number {
+    match knob {
+        KnobReport::YoungsModulus => Number::YoungsModulus,
+        KnobReport::Area => Number::Area,
+        KnobReport::MassPerLength => Number::MassPerLength,
+        KnobReport::PlatformMass => Number::PlatformMass,
+        KnobReport::Alpha => Number::Alpha,
+        KnobReport::Beta => Number::Beta,
+        KnobReport::Gravity => Number::Gravity,
+        KnobReport::Tension(cable) => {
+            let cable = cable.saturating_sub(1);
+            match scenario.cables.get(cable).map(|cable| cable.tension) {
+                Some(TensionLaw::Hypot { .. }) => Number::Horizontal(cable, 0),
+                _ => Number::Tension(cable),
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::fields::{self, Field};
+    use crate::scenario::presets;
+
+    /// Every bar leads to a control that is there.
+    #[test]
+    fn every_knob_has_its_control() {
+        let knobs = [
+            KnobReport::YoungsModulus,
+            KnobReport::Area,
+            KnobReport::MassPerLength,
+            KnobReport::PlatformMass,
+            KnobReport::Tension(3),
+            KnobReport::Tension(4),
+            KnobReport::Alpha,
+            KnobReport::Beta,
+            KnobReport::Gravity,
+        ];
+        for preset in presets::PRESETS {
+            let scenario = preset.scenario();
+            for knob in knobs {
+                let number = control(knob, &scenario);
+                assert!(number.is_in(&scenario), "{}: {number:?}", preset.name);
+                let fixed: Vec<Field> = fields::BODY.into_iter().chain(fields::MODEL).collect();
+                let shown = match number {
+                    Number::Tension(cable) => fields::tension(cable).number == number,
+                    Number::Horizontal(cable, _) => fields::law(cable)[0].number == number,
+                    _ => fixed.iter().any(|field| field.number == number),
+                };
+                assert!(shown, "{}: {number:?}", preset.name);
+            }
+        }
+    }
+}

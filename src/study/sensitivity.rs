@@ -1,0 +1,49 @@
+//! Which parameter to turn: how much the critical speed changes with each, in percent per percent.
+
+use crate::mechanics::{self, Knob, Vibration};
+use crate::robot::{Damping, Motion, Robot};
+use crate::stability::{Critical, Crossing, Kind, NoSensitivity};
+
+/// What one parameter does to the crossing, as relative derivatives: percent per percent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// The parameter p.
+    pub knob: Knob,
+    /// d ln `v_c`/d ln p of the critical speed.
+    pub speed: f64,
+    /// d ln ω/d ln p of the frequency with which stability is lost; none for divergence.
+    pub frequency: Option<f64>,
+}
+
+/// The relative derivatives of the critical speed of `robot` on `motion`, which is that of `critical`, with respect to E,
+/// A, μ, m, each prescribed tension (a factor on its law), α, β and g, in this order; 0 for those that are 0.
+///
+/// Exact to rounding and to the accuracy of `critical`: the dependence of the static shapes, of L' and of L'' is in
+/// them. They are those of the mode that crosses: where a small change lets another mode cross first, `v_c` has a kink.
+/// docs/theory.md section 12.
+///
+/// # Errors
+/// [`NoSensitivity`], where the critical speed is 0 or has no derivative.
+pub fn sensitivities(robot: &Robot, motion: &Motion, critical: &Critical) -> Result<Vec<Sensitivity>, NoSensitivity> {
+    let out_of_range = NoSensitivity::OutOfRange;
+    let statics = mechanics::solve(robot, motion.position()).map_err(|_| out_of_range)?;
+    let rates = mechanics::length_rates(robot, &statics, motion.direction()).ok_or(out_of_range)?;
+    let crossing = Crossing::new(&Vibration::new(robot, &statics, &rates), critical)?;
+    let damping = robot.damping;
+    let sensitivity = |knob: Knob| {
+        // The shift per unit of ln p.
+        let shift = match knob {
+            Knob::Alpha => crossing.shift_by_damping(Damping { beta: 0.0, ..damping }),
+            Knob::Beta => crossing.shift_by_damping(Damping { alpha: 0.0, ..damping }),
+            _ => {
+                let derivative = Vibration::derivative(robot, &statics, motion.direction(), knob);
+                crossing.shift(&derivative.ok_or(out_of_range)?)
+            }
+        };
+        let speed = shift.speed / critical.speed;
+        let frequency = (critical.kind == Kind::Flutter).then(|| shift.omega / critical.eigenvalue.im);
+        let finite = speed.is_finite() && frequency.is_none_or(f64::is_finite);
+        if finite { Ok(Sensitivity { knob, speed, frequency }) } else { Err(out_of_range) }
+    };
+    Knob::all(robot).into_iter().map(sensitivity).collect()
+}

@@ -1,0 +1,219 @@
+//! The derivatives of the critical speed: against differences of whole searches, and against what units demand.
+
+mod common;
+
+use std::cell::Cell;
+
+use common::close;
+use common::random::{config, moving_robot};
+use proptest::prelude::*;
+use proptest::test_runner::TestRunner;
+use tautline::robot::{Damping, Linearisation, RobotSpec, TensionLaw, paper_spec};
+use tautline::stability::{Critical, Kind, NoSensitivity, Outcome};
+use tautline::study::{Knob, Sensitivity, sensitivities};
+use tautline::{Local, Motion, Robot};
+
+/// Only critical speeds above this one, in m/s, are compared.
+const SLOWEST: f64 = 0.5;
+/// Critical speeds and frequencies are good to this part of them: a scan refines to 1e-9 m/s (the search by structure to
+/// far less) and gives the middle, half of that off; frequencies change about as much as speeds do, at most twice.
+const SEARCHED: f64 = 2.0 * 0.5e-9 / SLOWEST;
+/// The step of the differences in ln p.
+const STEP: f64 = 2e-3;
+/// Up to this speed in m/s critical speeds are searched for.
+const LIMIT: f64 = 40.0;
+
+fn critical(robot: &Robot, motion: &Motion) -> Option<Critical> {
+    match Local::new(robot, motion).ok()?.critical_speed(LIMIT).ok()? {
+        Outcome::Found(critical) => Some(critical),
+        Outcome::NoneUpTo(_) => None,
+    }
+}
+
+/// The robot with a parameter times e^s.
+fn turned(robot: &Robot, knob: Knob, s: f64) -> Robot {
+    let mut spec = (**robot).clone();
+    let factor = s.exp();
+    match knob {
+        Knob::YoungsModulus => spec.youngs_modulus *= factor,
+        Knob::Area => spec.area *= factor,
+        Knob::MassPerLength => spec.mass_per_length *= factor,
+        Knob::PlatformMass => spec.platform_mass *= factor,
+        Knob::Alpha => spec.damping.alpha *= factor,
+        Knob::Beta => spec.damping.beta *= factor,
+        Knob::Gravity => spec.gravity *= factor,
+        Knob::Tension(cable) => match &mut spec.cables[cable].tension {
+            TensionLaw::Equilibrium => panic!("cable {cable} has no tension of its own"),
+            TensionLaw::Constant(tension) => *tension *= factor,
+            TensionLaw::Hypot { horizontal, vertical } => {
+                horizontal.iter_mut().chain(vertical).for_each(|coefficient| *coefficient *= factor);
+            }
+        },
+    }
+    Robot::new(spec).expect("a robot")
+}
+
+/// d ln v/d ln p and d ln ω/d ln p by Richardson's extrapolation of central differences over h and 2h, each with what it
+/// may be off: the noise of the searches over h (the weights are 4/3 · 1/2h twice and 1/3 · 1/4h twice), and of the
+/// truncation. The leading term of that, in h², is a third of what the two differences differ by, and is gone; the rest
+/// is smaller by about h² f⁗′/f‴, for which a twentieth of that difference leaves h² f⁗′/f‴ = 0.15. `None` where another
+/// mode crosses first somewhere.
+fn differences(robot: &Robot, motion: &Motion, at: &Critical, knob: Knob) -> Option<[(f64, f64); 2]> {
+    let mut logarithms = [[0.0; 2]; 4];
+    for (k, step) in [-2.0, -1.0, 1.0, 2.0].into_iter().enumerate() {
+        let beside = critical(&turned(robot, knob, step * STEP), motion)?;
+        let frequency = beside.eigenvalue.im / at.eigenvalue.im;
+        // A frequency that moves by a tenth in so small a step is that of another mode.
+        if beside.kind != at.kind || (at.kind == Kind::Flutter && (frequency - 1.0).abs() > 0.1) {
+            return None;
+        }
+        logarithms[k] = [(beside.speed / at.speed).ln(), if at.kind == Kind::Flutter { frequency.ln() } else { 0.0 }];
+    }
+    Some([0, 1].map(|i| {
+        let [a, b, c, d] = logarithms.map(|pair| pair[i]);
+        let (near, far) = ((c - b) / (2.0 * STEP), (d - a) / (4.0 * STEP));
+        ((4.0 * near - far) / 3.0, 1.5 * SEARCHED / STEP + 0.05 * (near - far).abs())
+    }))
+}
+
+/// Compares all of them; gives how many could be.
+fn compare(robot: &Robot, motion: &Motion) -> usize {
+    let Some(at) = critical(robot, motion).filter(|critical| critical.speed > SLOWEST) else { return 0 };
+    let all = match sensitivities(robot, motion, &at) {
+        Ok(all) => all,
+        Err(NoSensitivity::NotSimple | NoSensitivity::NotTransversal) => return 0,
+        Err(reason) => panic!("{reason}: {robot:?} {motion:?}"),
+    };
+    let mut compared = 0;
+    for Sensitivity { knob, speed, frequency } in all {
+        let what = format!("{knob:?} at {:?} along {:?} of {robot:?}", motion.position(), motion.direction());
+        assert_eq!(frequency.is_some(), at.kind == Kind::Flutter, "{what}");
+        let Some([by_speed, by_frequency]) = differences(robot, motion, &at, knob) else { continue };
+        close(speed, by_speed.0, by_speed.1, format!("speed by {what}"));
+        close(frequency.unwrap_or(0.0), by_frequency.0, by_frequency.1, format!("frequency by {what}"));
+        compared += 1;
+    }
+    compared
+}
+
+fn paper(linearisation: Linearisation, position: [f64; 2], direction: [f64; 2]) -> (Robot, Motion) {
+    let robot = Robot::new(RobotSpec { linearisation, ..paper_spec() }).expect("a robot");
+    (robot, Motion::new(position, direction, 0.0).expect("a motion"))
+}
+
+#[test]
+fn of_the_papers_robot_they_are_what_differences_give() {
+    for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
+        for (position, direction) in [
+            ([0.0, 0.0], [1.0, 0.0]),
+            ([0.0, 0.0], [0.0, 1.0]),
+            ([2.0, 0.0], [1.0, 0.0]),
+            ([-3.0, 1.5], [1.0, 0.4]),
+            ([4.5, -2.0], [-0.3, -1.0]),
+            ([6.0, 0.5], [1.0, 0.0]),
+        ] {
+            let (robot, motion) = paper(linearisation, position, direction);
+            let compared = compare(&robot, &motion);
+            assert_eq!(compared, 9, "{linearisation:?} {position:?} {direction:?}");
+        }
+    }
+}
+
+#[test]
+fn of_random_robots_they_are_what_differences_give() {
+    let compared = Cell::new(0);
+    TestRunner::new(config(48))
+        .run(&moving_robot(2..8), |(robot, motion)| {
+            prop_assume!(common::random::statics(&robot, motion.position()).is_some());
+            compared.set(compared.get() + compare(&robot, &motion));
+            Ok(())
+        })
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(compared.get() > 100, "only {} were compared", compared.get());
+}
+
+/// What units demand, for the speed and the frequency. In a unit of mass 1/s as large, E, μ, m and all tensions have s
+/// times their values, and nothing else changes. In a unit of time s times as long, E, the tensions and g have s² times
+/// their values, α has s times, β 1/s times, and speeds and frequencies have s times theirs. E and A are in EA only.
+/// Where the crossing has an answer at all.
+fn check_units(robot: &Robot, motion: &Motion) -> bool {
+    let Some(at) = critical(robot, motion).filter(|critical| critical.speed > SLOWEST) else { return false };
+    let Ok(all) = sensitivities(robot, motion, &at) else { return false };
+    let of = |value: fn(&Sensitivity) -> f64| {
+        let by = |wanted: fn(Knob) -> bool| all.iter().filter(|s| wanted(s.knob)).map(value).sum::<f64>();
+        let forces = by(|knob| matches!(knob, Knob::YoungsModulus | Knob::Tension(_)));
+        let masses = by(|knob| matches!(knob, Knob::MassPerLength | Knob::PlatformMass));
+        let rates = 2.0 * (forces + by(|knob| knob == Knob::Gravity)) + by(|knob| knob == Knob::Alpha);
+        let stiffness = [Knob::YoungsModulus, Knob::Area].map(|knob| all.iter().find(|s| s.knob == knob).map(value));
+        let size = all.iter().map(|s| value(s).abs()).fold(1.0, f64::max);
+        (forces + masses, rates - by(|knob| knob == Knob::Beta), stiffness, size)
+    };
+    let values: [fn(&Sensitivity) -> f64; 2] = [|s| s.speed, |s| s.frequency.unwrap_or_default()];
+    for (i, value) in values.into_iter().enumerate() {
+        let (mass, time, [e, a], size) = of(value);
+        // Exact for an eigenvalue on the axis. One that is off it because the speed is off by a part ε of itself leaves ε
+        // in the second sum; SEARCHED bounds ε for speeds above SLOWEST, and rounding in the sums comes on top.
+        let allowed = SEARCHED + 1e-9 * size;
+        let what = format!("{} of {robot:?} {motion:?}", ["speed", "frequency"][i]);
+        close(mass, 0.0, allowed, format!("mass, {what}"));
+        let rate = if i == 0 || at.kind == Kind::Flutter { 1.0 } else { 0.0 };
+        close(time, rate, allowed, format!("time, {what}"));
+        assert_eq!(e, a, "{what}");
+    }
+    true
+}
+
+#[test]
+fn units_of_mass_and_time_do_not_matter() {
+    for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
+        for x in [0.0, 1.0, 3.5, 5.0, 6.5, 7.0] {
+            let (robot, motion) = paper(linearisation, [x, 0.3], [1.0, -0.2]);
+            assert!(check_units(&robot, &motion), "{linearisation:?} {x}");
+        }
+    }
+    let checked = Cell::new(0);
+    TestRunner::new(config(64))
+        .run(&moving_robot(2..12), |(robot, motion)| {
+            prop_assume!(common::random::statics(&robot, motion.position()).is_some());
+            checked.set(checked.get() + usize::from(check_units(&robot, &motion)));
+            Ok(())
+        })
+        .unwrap_or_else(|failure| panic!("{failure}"));
+    assert!(checked.get() > 20, "only {} were checked", checked.get());
+}
+
+#[test]
+fn without_damping_there_is_nothing_to_turn() {
+    let damping = Damping { alpha: 0.0, beta: 0.0 };
+    let robot = Robot::new(RobotSpec { damping, ..paper_spec() }).expect("a robot");
+    let motion = Motion::new([1.0, 0.0], [1.0, 0.0], 0.0).expect("a motion");
+    let at = critical(&robot, &motion).expect("a critical speed");
+    assert!(at.speed <= 0.0, "{at:?}");
+    assert_eq!(sensitivities(&robot, &motion, &at), Err(NoSensitivity::FromRest));
+}
+
+/// Cables 3 and 4 are each other's mirror image and know of each other through the platform alone, which does not move
+/// where it is a hundred million times as heavy as they are. Turning one tension lets that cable cross first, whichever
+/// way: the critical speed has a kink.
+#[test]
+fn two_modes_that_cross_together_have_no_derivative() {
+    let (platform_mass, youngs_modulus) = (4e8, 1e20);
+    let robot = Robot::new(RobotSpec { platform_mass, youngs_modulus, ..paper_spec() }).expect("a robot");
+    let motion = Motion::new([0.0, 0.0], [0.0, -1.0], 0.0).expect("a motion");
+    let at = critical(&robot, &motion).expect("a critical speed");
+    assert!([2, 3].contains(&at.cable), "{at:?}");
+    assert_eq!(sensitivities(&robot, &motion, &at), Err(NoSensitivity::NotSimple));
+}
+
+/// A parameter that is zero has no part in the speed, the others still do.
+#[test]
+fn a_parameter_that_is_zero_counts_for_nothing() {
+    let damping = Damping { alpha: 0.5, beta: 0.0 };
+    let robot = Robot::new(RobotSpec { damping, gravity: 0.0, ..paper_spec() }).expect("a robot");
+    let motion = Motion::new([1.0, 0.0], [1.0, 0.0], 0.0).expect("a motion");
+    let at = critical(&robot, &motion).expect("a critical speed");
+    for Sensitivity { knob, speed, frequency } in sensitivities(&robot, &motion, &at).expect("a simple crossing") {
+        let nothing = matches!(knob, Knob::Beta | Knob::Gravity);
+        assert_eq!(nothing, speed == 0.0 && frequency.is_none_or(|f| f == 0.0), "{knob:?}: {speed}");
+    }
+}
