@@ -16,7 +16,10 @@ fn main() {
     };
     wasm_bindgen_futures::spawn_local(async move {
         let create: eframe::AppCreator<'static> = Box::new(|context| {
-            Ok(Box::new(Tautline::new(context, Start { link: tautline::app::take_link(), ..Start::default() })))
+            Ok(Box::new(Tautline::new(
+                context,
+                Start { link: tautline::app::take_link(), tour: true, ..Start::default() },
+            )))
         });
         if let Err(error) = eframe::WebRunner::new().start(canvas, eframe::WebOptions::default(), create).await {
             // The page hears of it and tells it.
@@ -47,7 +50,7 @@ fn main() -> std::process::ExitCode {
         if let Some(theme) = theme {
             context.egui_ctx.set_theme(theme);
         }
-        Ok(Box::new(Tautline::new(context, Start { scenario, link: None })))
+        Ok(Box::new(Tautline::new(context, Start { scenario, link: None, tour: true })))
     });
     match eframe::run_native("Tautline", options, create) {
         Ok(()) => std::process::ExitCode::SUCCESS,

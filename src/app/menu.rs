@@ -117,6 +117,9 @@ fn view(ui: &mut Ui, state: &mut UiState) {
 }
 
 fn help(ui: &mut Ui, state: &mut UiState) {
+    if entry(ui, "Tour", None, true) {
+        state.tour = Some(0);
+    }
     if entry(ui, "Keyboard shortcuts", None, true) {
         state.windows.shortcuts = true;
     }
@@ -194,6 +197,7 @@ pub fn keys(context: &Context, state: &mut UiState, commands: &mut Vec<Command>)
         }
         if pressed(Key::Escape) {
             state.windows = Default::default();
+            state.tour_taken |= state.tour.take().is_some();
         }
         if input.events.iter().any(|event| matches!(event, eframe::egui::Event::Text(text) if text == "?")) {
             state.windows.shortcuts = true;

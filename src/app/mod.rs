@@ -14,6 +14,8 @@ mod files;
 mod history;
 mod menu;
 #[cfg(target_arch = "wasm32")]
+mod mirror;
+#[cfg(target_arch = "wasm32")]
 mod page;
 mod panels;
 mod persist;
@@ -22,6 +24,9 @@ mod series;
 mod state;
 mod studies;
 mod theme;
+#[cfg(target_arch = "wasm32")]
+mod tone;
+mod tour;
 mod windows;
 
 use std::time::Duration;
@@ -80,6 +85,8 @@ pub struct Tautline {
     commands: Vec<Command>,
     #[cfg(target_arch = "wasm32")]
     page: page::Page,
+    #[cfg(target_arch = "wasm32")]
+    tone: tone::Tone,
 }
 
 /// What panels read.
@@ -99,9 +106,17 @@ pub struct Facts<'a> {
 
 /// Where things are on the screen.
 #[derive(Clone, Copy, Debug)]
-struct Places {
+pub struct Places {
     canvas: Rect,
+    controls: Rect,
+    answer: Rect,
     plot: Rect,
+}
+
+impl Default for Places {
+    fn default() -> Self {
+        Self { canvas: Rect::NOTHING, controls: Rect::NOTHING, answer: Rect::NOTHING, plot: Rect::NOTHING }
+    }
 }
 
 /// A line for the user.
@@ -119,6 +134,8 @@ pub struct Start {
     pub scenario: Option<Scenario>,
     /// What this link says, even before that.
     pub link: Option<String>,
+    /// Whether first visitors are shown around.
+    pub tour: bool,
 }
 
 /// The analysis on show.
@@ -177,7 +194,7 @@ impl Tautline {
             files: Files::default(),
             applied: Settings::default(),
             plots_open: false,
-            places: Places { canvas: Rect::NOTHING, plot: Rect::NOTHING },
+            places: Places::default(),
             layer: canvas::map::Layer::default(),
             joined: panels::campbell::Modes::default(),
             revision: 0,
@@ -185,7 +202,15 @@ impl Tautline {
             commands: Vec::new(),
             #[cfg(target_arch = "wasm32")]
             page: page::Page::new(context),
+            #[cfg(target_arch = "wasm32")]
+            tone: tone::Tone::default(),
         };
+        if start.tour && !app.state.tour_taken {
+            app.state.tour = Some(0);
+        }
+        if app.state.settings.reduces_motion() {
+            app.reduce_motion(context);
+        }
         app.analyze();
         app
     }
@@ -327,7 +352,7 @@ impl Tautline {
         });
         Panel::right("answer").default_size(340.0).min_size(280.0).show(ui, |ui| {
             ui.add_space(6.0);
-            panels::answer::ui(ui, self.facts());
+            self.answer(ui);
             ui.separator();
             self.plots(ui);
         });
@@ -341,7 +366,7 @@ impl Tautline {
         });
         CentralPanel::default().show(ui, |ui| {
             ScrollArea::vertical().show(ui, |ui| {
-                panels::answer::ui(ui, self.facts());
+                self.answer(ui);
                 ui.separator();
                 ui.horizontal(|ui| {
                     ui.selectable_value(&mut self.state.page, Page::Controls, "Controls");
@@ -362,10 +387,17 @@ impl Tautline {
         Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings }
     }
 
+    fn answer(&mut self, ui: &mut Ui) {
+        let top = ui.cursor().min;
+        panels::answer::ui(ui, self.facts());
+        self.places.answer = Rect::from_min_max(top, ui.min_rect().max);
+    }
+
     fn controls(&mut self, ui: &mut Ui) {
         let Self { state, document, answers, studies, pinned, commands, .. } = self;
         let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
         panels::controls::ui(state, ui, facts, commands);
+        self.places.controls = ui.min_rect().intersect(ui.clip_rect());
     }
 
     fn plots(&mut self, ui: &mut Ui) {
@@ -391,6 +423,11 @@ impl Tautline {
         menu::ui(ui, &mut self.state, possible, &mut self.commands);
     }
 
+    fn reduce_motion(&mut self, context: &egui::Context) {
+        self.state.playback.playing = false;
+        context.all_styles_mut(|style| style.animation_time = 0.0);
+    }
+
     /// Carries out what has changed in the settings.
     fn apply_settings(&mut self, context: &egui::Context) {
         let settings = self.state.settings;
@@ -398,8 +435,7 @@ impl Tautline {
             theme::choose(context, settings.theme);
         }
         if settings.motion != self.applied.motion && settings.reduces_motion() {
-            self.state.playback.playing = false;
-            context.all_styles_mut(|style| style.animation_time = 0.0);
+            self.reduce_motion(context);
         }
         self.applied = settings;
     }
@@ -431,9 +467,20 @@ impl eframe::App for Tautline {
             context.request_repaint_after(HEARTBEAT);
         }
         self.animate(context);
+        #[cfg(target_arch = "wasm32")]
+        self.tone.sound(
+            self.answers
+                .shape()
+                .filter(|_| self.state.playback.sound)
+                .map(|shape| shape.eigenvalue[1].abs() / std::f64::consts::TAU),
+        );
         self.apply_settings(context);
         #[cfg(target_arch = "wasm32")]
-        self.page.publish(&self.document.scenario, &self.answers, &self.studies, frame.info().cpu_usage);
+        {
+            let Self { document, answers, studies, pinned, state, page, .. } = self;
+            let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
+            page.publish(facts, frame.info().cpu_usage);
+        }
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
@@ -447,6 +494,7 @@ impl eframe::App for Tautline {
         }
         windows::ui(ui.ctx(), &mut self.state);
         files::announce_drop(ui.ctx());
+        tour::ui(ui.ctx(), &mut self.state, &self.places);
         // Commands are carried out before the next frame; without one nothing would be seen of them.
         if !self.commands.is_empty() {
             ui.ctx().request_repaint();

@@ -9,15 +9,16 @@ use js_sys::{Array, JSON, Object, Reflect};
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
-use crate::app::answers::{Answers, CriticalState};
 use crate::app::command::Command;
 use crate::app::studies::{Known, Stage, Studies, TOPICS};
+use crate::app::{Facts, mirror};
 use crate::compute::protocol::{PlaceAnswer, Revision, Topic, VerdictAnswer};
-use crate::scenario::report::KindReport;
 use crate::scenario::{Scenario, link};
 
 /// The element that mirrors the main results as text.
 const SUMMARY: &str = "tautline-summary";
+/// The list that goes on from there.
+const DETAILS: &str = "tautline-details";
 /// So many frames' times are kept.
 const FRAMES: usize = 120;
 
@@ -25,6 +26,7 @@ const FRAMES: usize = 120;
 pub struct Page {
     shared: Rc<RefCell<Shared>>,
     summary: String,
+    details: Vec<String>,
 }
 
 #[derive(Default)]
@@ -74,7 +76,7 @@ impl Page {
             });
             let _ = window.add_event_listener_with_callback("hashchange", went.into_js_value().unchecked_ref());
         }
-        Self { shared, summary: String::new() }
+        Self { shared, summary: String::new(), details: Vec::new() }
     }
 
     /// What a script has loaded since the last call, and the link that the user has gone to.
@@ -85,10 +87,11 @@ impl Page {
     }
 
     /// Makes the state of this frame visible.
-    pub fn publish(&mut self, scenario: &Scenario, answers: &Answers, studies: &Studies, frame_seconds: Option<f32>) {
+    pub fn publish(&mut self, facts: Facts<'_>, frame_seconds: Option<f32>) {
+        let Facts { document, answers, studies, .. } = facts;
         let mut shared = self.shared.borrow_mut();
         if shared.loaded.is_none() {
-            shared.scenario = scenario.to_json();
+            shared.scenario = document.scenario.to_json();
         }
         shared.frame_ms = frame_seconds.map(|seconds| 1e3 * f64::from(seconds));
         let frame = shared.frame_ms;
@@ -110,33 +113,32 @@ impl Page {
             });
         }
         drop(shared);
-        self.mirror(answers);
+        self.mirror(facts);
     }
 
     /// Writes the main results into the document, once they are known.
-    fn mirror(&mut self, answers: &Answers) {
-        let text = match answers.critical() {
-            CriticalState::Recomputing { .. } => return,
-            CriticalState::Broken(reason) => format!("The analysis does not run: {reason}"),
-            CriticalState::Failed(failed) => failed.report.reason.clone().unwrap_or_default(),
-            CriticalState::Current(answer) => match &answer.critical {
-                None => format!("No critical speed up to {} metres per second.", answer.searched_up_to),
-                Some(critical) => {
-                    let kind = match critical.kind {
-                        KindReport::Flutter => format!("flutter at {:.4} hertz", critical.frequency_hz),
-                        KindReport::Divergence => "divergence".into(),
-                    };
-                    format!("Critical speed {:.4} metres per second, {kind}, cable {}.", critical.speed, critical.cable)
-                }
-            },
-        };
-        if text != self.summary {
-            let element = web_sys::window().and_then(|w| w.document()).and_then(|d| d.get_element_by_id(SUMMARY));
-            if let Some(element) = element {
-                element.set_text_content(Some(&text));
-            }
-            self.summary = text;
+    fn mirror(&mut self, facts: Facts<'_>) {
+        let Some(summary) = mirror::summary(facts) else { return };
+        let details = mirror::details(facts);
+        if (&summary, &details) == (&self.summary, &self.details) {
+            return;
         }
+        let Some(document) = web_sys::window().and_then(|window| window.document()) else { return };
+        if summary != self.summary
+            && let Some(element) = document.get_element_by_id(SUMMARY)
+        {
+            element.set_text_content(Some(&summary));
+        }
+        if let Some(list) = document.get_element_by_id(DETAILS) {
+            list.set_text_content(None);
+            for line in &details {
+                if let Ok(item) = document.create_element("li") {
+                    item.set_text_content(Some(line));
+                    let _ = list.append_child(&item);
+                }
+            }
+        }
+        (self.summary, self.details) = (summary, details);
     }
 }
 

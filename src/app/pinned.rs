@@ -32,6 +32,12 @@ impl Pinned {
         self.answers.curve().map(|(points, _)| points)
     }
 
+    /// By how much the present critical speed is higher, in m/s, where both have one.
+    pub fn difference(&self, now: &Answers) -> Option<f64> {
+        let now = now.last_critical()?.critical.as_ref()?;
+        Some(now.speed - self.critical()?.speed)
+    }
+
     /// How its critical speed depends on each parameter.
     pub fn sensitivities(&self) -> Option<&[SensitivityReport]> {
         self.answers.sensitivities().and_then(|(found, _)| found.as_deref().ok())

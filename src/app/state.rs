@@ -96,6 +96,11 @@ pub struct UiState {
     pub mode: ModeChoice,
     /// The mode shape's movement.
     pub playback: Playback,
+    /// Whether the tour has been taken or skipped.
+    pub tour_taken: bool,
+    /// The tour's step on show, from 0.
+    #[serde(skip)]
+    pub tour: Option<usize>,
     /// The control to bring into view.
     #[serde(skip)]
     pub wanted: Option<Number>,
@@ -238,6 +243,8 @@ impl Default for UiState {
             page: Page::default(),
             mode: critical_mode(),
             playback: Playback::default(),
+            tour_taken: false,
+            tour: None,
             wanted: None,
             unlocked: false,
             held_frame: None,
@@ -270,11 +277,14 @@ pub struct Playback {
     pub slow_motion: f64,
     /// The oscillation's phase in radians.
     pub phase: f64,
+    /// Whether the frequency sounds as a tone; not kept, since pages may not sound unasked.
+    #[serde(skip)]
+    pub sound: bool,
 }
 
 impl Default for Playback {
     fn default() -> Self {
-        Self { playing: true, amplitude: 0.03, slow_motion: 1.0, phase: 0.0 }
+        Self { playing: true, amplitude: 0.03, slow_motion: 1.0, phase: 0.0, sound: false }
     }
 }
 

@@ -71,6 +71,13 @@ fn playback(
         if ui.button(label).clicked() {
             playback.playing = !playback.playing;
         }
+        for (label, text, step) in [("←", "One step back", -1.0), ("→", "One step forward", 1.0)] {
+            let button = ui.button(label).on_hover_text(text);
+            button.widget_info(|| eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, text));
+            if button.clicked() {
+                playback.step(step);
+            }
+        }
         let critical = choice.which == Which::Critical;
         let response = ui.selectable_label(critical, "Critical mode");
         if response.on_hover_text("Show the mode that crosses at the critical speed").clicked() && !critical {
@@ -86,10 +93,25 @@ fn playback(
             }
         }
     });
-    ui.horizontal(|ui| {
-        ui.spacing_mut().slider_width = 90.0;
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().slider_width = 70.0;
         ui.add(Slider::new(&mut playback.amplitude, 0.0..=0.1).show_value(false).text("Amplitude"));
-        ui.add(Slider::new(&mut playback.slow_motion, 0.02..=2.0).logarithmic(true).show_value(false).text("Tempo"))
-            .on_hover_text("Seconds of the robot per second of the screen");
+        let mut degrees = playback.phase.to_degrees();
+        let phase = Slider::new(&mut degrees, 0.0..=360.0).show_value(false).text("Phase");
+        if ui.add(phase).on_hover_text("Where in its oscillation the mode is").changed() {
+            playback.playing = false;
+            playback.phase = degrees.to_radians();
+        }
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().slider_width = 70.0;
+        let tempo = Slider::new(&mut playback.slow_motion, 0.02..=2.0)
+            .logarithmic(true)
+            .custom_formatter(|x, _| format!("{x:.2}×"));
+        ui.add(tempo.text("Tempo")).on_hover_text("Seconds of the robot per second of the screen");
+        if cfg!(target_arch = "wasm32") {
+            let text = "The mode's frequency as a tone, eight octaves higher";
+            ui.toggle_value(&mut playback.sound, "Sound").on_hover_text(text);
+        }
     });
 }
