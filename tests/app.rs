@@ -489,8 +489,8 @@ fn the_line_shows_both_findings_and_follows_the_robot() {
     open(&mut app, "Along the line");
     finish(&mut app, Topic::Line);
     // The paper's findings hold for its robot on the middle line.
-    assert!(app.query_by_label_contains("critical speed falls").is_some());
-    assert!(app.query_by_label_contains("the frequency rises").is_some());
+    assert!(app.query_by_label_contains("as the paper found").is_some());
+    assert!(app.query_by_label_contains("and the frequency rises toward").is_some());
     app.get_by_label("What am I seeing?").click();
     app.run_steps(30);
     assert!(app.query_by_label_contains("The platform passes every point of the straight line").is_some());

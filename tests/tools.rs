@@ -11,7 +11,7 @@ use std::sync::Arc;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{DroppedFile, Event, Key, Modifiers, Theme, Vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use tautline::app::Tautline;
 use tautline::robot::TensionLaw;
 use tautline::scenario::{Scenario, presets};
@@ -277,4 +277,125 @@ fn the_menus_fit_a_phone() {
     choose(&mut app, "View", "Settings");
     let settings = app.get_by_label("Theme").rect();
     assert!(settings.min.x >= 0.0 && settings.max.x <= 360.0, "{settings:?}");
+}
+
+#[test]
+fn a_pinned_design_is_compared_with_the_present_one() {
+    let mut app = app();
+    app.get_by_role_and_label(Role::Button, "Pin").click();
+    app.run_steps(3);
+    // Pinned as soon as all of it is known.
+    interface::wait_for_label(&mut app, "Pinned: 11.2990 m/s. Now +0.0000 m/s (+0.00 %)");
+    drag_platform(&mut app, Vec2::new(60.0, 0.0));
+    let now = report(&app).critical.expect("a critical speed").speed;
+    let difference = now - interface::cold(&paper()).critical.expect("a critical speed").speed;
+    app.get_by_label_contains(&format!("Pinned: 11.2990 m/s. Now {difference:+.4} m/s"));
+    // Every plot goes on with it.
+    for tab in ["Eigenvalues", "Growth rate", "Modes", "Along the line", "Directions", "Campbell", "Mesh", "Knobs"] {
+        app.get_by_role_and_label(Role::Button, tab).click();
+        settle(&mut app);
+    }
+    app.get_by_role_and_label(Role::Button, "Unpin").click();
+    app.run_steps(3);
+    assert!(app.query_by_label_contains("Pinned: 11.2990").is_none());
+}
+
+#[test]
+fn the_bars_say_which_knob_to_turn_and_lead_to_it() {
+    let mut app = app();
+    app.get_by_role_and_label(Role::Button, "Knobs").click();
+    // E and A only occur as EA in the stiffness, so their bars are equal.
+    interface::wait_for_label(&mut app, "A, area: ");
+    let value = |app: &App, name: &str| -> f64 {
+        let node = app.get_by_label_contains(name);
+        let text = interface::text_of(&node);
+        let number = text.split(": ").nth(1).and_then(|rest| rest.split(' ').next()).expect("a number");
+        number.parse().expect("a number")
+    };
+    assert_eq!(value(&app, "E, Young's mod.: "), value(&app, "A, area: "));
+    // More damping, a higher critical speed: docs/theory.md section 9.
+    assert!(value(&app, "α, damping: ") > 0.0);
+    app.get_by_label_contains("T, cable 4: ").click();
+    app.run_steps(30);
+    assert!(app.query_by_role_and_label(Role::SpinButton, "h0").is_some(), "the tension's law is open");
+}
+
+#[test]
+fn a_link_opens_the_robot_that_it_names_and_a_damaged_one_is_told() {
+    use tautline::app::Start;
+    use tautline::scenario::link;
+    let other = presets::PRESETS[3].scenario();
+    let start = |link: String| Start { link: Some(link), ..Start::default() };
+    let good = format!("https://example.org/tautline/#s={}", link::encode(&other));
+    let mut app = interface::app_started(start(good.clone()));
+    assert_eq!(*app.state().scenario(), other);
+    // Pasted, too.
+    app.event(Event::Paste(format!("Look: #s={} ", link::encode(&paper()))));
+    settle(&mut app);
+    assert_eq!(*app.state().scenario(), paper());
+    let app = interface::app_started(start(good[..good.len() - 3].to_owned()));
+    assert_eq!(*app.state().scenario(), paper());
+    assert!(app.state().notice().is_some_and(|notice| notice.contains("damaged")), "{:?}", app.state().notice());
+}
+
+#[test]
+fn the_tour_shows_six_things_and_can_be_skipped_and_repeated() {
+    use tautline::app::Start;
+    for size in [Vec2::new(1280.0, 800.0), Vec2::new(360.0, 740.0)] {
+        let start = Start { scenario: Some(paper()), tour: true, ..Start::default() };
+        let mut app = interface::app_sized(start, size);
+        for step in 1..=6 {
+            let count = app.get_by_label(&format!("{step} of 6")).rect();
+            assert!(count.max.x <= size.x && count.max.y <= size.y, "{count:?}");
+            let next = if step < 6 { "Next" } else { "Done" };
+            app.get_by_role_and_label(Role::Button, next).click();
+            app.run_steps(3);
+        }
+        assert!(app.query_by_label_contains("of 6").is_none());
+        choose(&mut app, "Help", "Tour");
+        app.get_by_label("Skip the tour").click();
+        app.run_steps(3);
+        assert!(app.query_by_label_contains("of 6").is_none());
+    }
+}
+
+#[test]
+fn mode_shapes_can_be_stepped_through() {
+    let mut app = app();
+    app.get_by_role_and_label(Role::Button, "One step forward").click();
+    app.run_steps(3);
+    app.get_by_label("▶ Play");
+    let phase = |app: &App| app.get_by_role_and_label(Role::Slider, "Phase").accesskit_node().numeric_value().expect("a value");
+    let before = phase(&app);
+    app.get_by_role_and_label(Role::Button, "One step forward").click();
+    app.run_steps(3);
+    let after = phase(&app);
+    assert!(((after - before).rem_euclid(360.0) - 15.0).abs() < 1e-6, "{before} {after}");
+}
+
+#[test]
+fn two_fingers_zoom() {
+    use eframe::egui::{Pos2, TouchDeviceId, TouchId, TouchPhase};
+    let mut app = app();
+    assert!(app.query_by_label("Show all").is_none());
+    // The first finger is the pointer, too.
+    app.drag_at(Pos2::new(610.0, 650.0));
+    app.step();
+    let mut touch = |phase, apart: f32| {
+        for (id, side) in [(1, -1.0), (2, 1.0)] {
+            let pos = Pos2::new(640.0 + side * apart, 650.0);
+            app.event(Event::Touch { device_id: TouchDeviceId(0), id: TouchId(id), phase, pos, force: None });
+        }
+        app.step();
+    };
+    touch(TouchPhase::Start, 30.0);
+    for apart in [40.0, 60.0, 80.0] {
+        touch(TouchPhase::Move, apart);
+    }
+    touch(TouchPhase::End, 80.0);
+    app.drop_at(Pos2::new(560.0, 650.0));
+    app.run_steps(3);
+    app.get_by_label("Show all").click();
+    app.run_steps(3);
+    assert!(app.query_by_label("Show all").is_none(), "the whole robot is back");
 }

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, Pos2, Theme, Vec2};
-use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{Harness, Node};
 use tautline::app::{Start, Tautline};
 use tautline::scenario::{Report, Scenario, presets};
 
@@ -21,13 +21,41 @@ pub fn paper() -> Scenario {
 }
 
 pub fn app_with(scenario: Scenario, size: Vec2, theme: Theme) -> Harness<'static, Tautline> {
+    let start = Start { scenario: Some(scenario), ..Start::default() };
+    build(start, size, theme)
+}
+
+pub fn app_started(start: Start) -> Harness<'static, Tautline> {
+    build(start, SIZE, Theme::Light)
+}
+
+pub fn app_sized(start: Start, size: Vec2) -> Harness<'static, Tautline> {
+    build(start, size, Theme::Dark)
+}
+
+fn build(start: Start, size: Vec2, theme: Theme) -> Harness<'static, Tautline> {
     let mut app = Harness::builder()
         .with_size(size)
         .with_theme(theme)
         .with_step_dt(1.0 / 60.0)
-        .build_eframe(|context| Tautline::new(context, Start { scenario: Some(scenario), ..Start::default() }));
+        .build_eframe(|context| Tautline::new(context, start));
     settle(&mut app);
     app
+}
+
+/// Steps until something with this in its label is there.
+pub fn wait_for_label(app: &mut Harness<'static, Tautline>, label: &str) {
+    let begun = Instant::now();
+    while app.query_by_label_contains(label).is_none() {
+        assert!(begun.elapsed() < PATIENCE, "no {label:?} after {PATIENCE:?}");
+        std::thread::sleep(Duration::from_millis(2));
+        app.step();
+    }
+}
+
+pub fn text_of(node: &Node<'_>) -> String {
+    let node = node.accesskit_node();
+    node.label().or_else(|| node.value()).unwrap_or_default()
 }
 
 pub fn app() -> Harness<'static, Tautline> {

@@ -161,14 +161,23 @@ pub fn camera(ui: &Ui, background: &Response, view: &View, camera: &mut Camera, 
         *camera = Camera::default();
         return;
     }
-    if background.dragged() {
-        // A drag is recognised some points after it began; those count as well.
-        let begun = background.total_drag_delta().filter(|_| background.drag_started());
-        let [x, y] = view.vec_in_world(begun.unwrap_or_else(|| background.drag_delta()));
+    let touch = ui.input(|input| input.multi_touch()).filter(|touch| view.rect.contains(touch.center_pos));
+    let moved = match touch {
+        Some(touch) => touch.translation_delta,
+        None if background.dragged() => {
+            // A drag is recognised some points after it began; those count as well.
+            let begun = background.total_drag_delta().filter(|_| background.drag_started());
+            begun.unwrap_or_else(|| background.drag_delta())
+        }
+        None => Vec2::ZERO,
+    };
+    if moved != Vec2::ZERO {
+        let [x, y] = view.vec_in_world(moved);
         camera.offset = [camera.offset[0] - x, camera.offset[1] - y];
     }
     let pointer = ui.input(|input| input.pointer.hover_pos().or(input.pointer.interact_pos()));
-    let Some(pointer) = pointer.filter(|_| background.contains_pointer()) else { return };
+    let pointer = pointer.filter(|_| background.contains_pointer());
+    let Some(pointer) = touch.map(|touch| touch.center_pos).or(pointer) else { return };
     let factor = ui.input(|input| {
         let wheel = (f64::from(input.smooth_scroll_delta().y) / 300.0).exp();
         f64::from(input.zoom_delta()) * wheel
