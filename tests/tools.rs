@@ -365,7 +365,8 @@ fn mode_shapes_can_be_stepped_through() {
     app.get_by_role_and_label(Role::Button, "One step forward").click();
     app.run_steps(3);
     app.get_by_label("▶ Play");
-    let phase = |app: &App| app.get_by_role_and_label(Role::Slider, "Phase").accesskit_node().numeric_value().expect("a value");
+    let phase =
+        |app: &App| app.get_by_role_and_label(Role::Slider, "Phase").accesskit_node().numeric_value().expect("a value");
     let before = phase(&app);
     app.get_by_role_and_label(Role::Button, "One step forward").click();
     app.run_steps(3);

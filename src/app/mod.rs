@@ -477,9 +477,10 @@ impl eframe::App for Tautline {
         self.apply_settings(context);
         #[cfg(target_arch = "wasm32")]
         {
-            let Self { document, answers, studies, pinned, state, page, .. } = self;
+            let Self { document, answers, studies, pinned, state, page, notice, .. } = self;
             let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
             page.publish(facts, frame.info().cpu_usage);
+            page.tell(notice.as_ref().map(|notice| notice.text.as_str()));
         }
     }
 

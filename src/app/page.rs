@@ -19,6 +19,8 @@ use crate::scenario::{Scenario, link};
 const SUMMARY: &str = "tautline-summary";
 /// The list that goes on from there.
 const DETAILS: &str = "tautline-details";
+/// What the line at the foot of the window says.
+const NOTICE: &str = "tautline-notice";
 /// So many frames' times are kept.
 const FRAMES: usize = 120;
 
@@ -27,6 +29,7 @@ pub struct Page {
     shared: Rc<RefCell<Shared>>,
     summary: String,
     details: Vec<String>,
+    notice: String,
 }
 
 #[derive(Default)]
@@ -76,7 +79,7 @@ impl Page {
             });
             let _ = window.add_event_listener_with_callback("hashchange", went.into_js_value().unchecked_ref());
         }
-        Self { shared, summary: String::new(), details: Vec::new() }
+        Self { shared, summary: String::new(), details: Vec::new(), notice: String::new() }
     }
 
     /// What a script has loaded since the last call, and the link that the user has gone to.
@@ -116,6 +119,15 @@ impl Page {
         self.mirror(facts);
     }
 
+    /// Writes the line for the user into the document.
+    pub fn tell(&mut self, notice: Option<&str>) {
+        let notice = notice.unwrap_or_default();
+        if notice != self.notice {
+            write(NOTICE, notice);
+            notice.clone_into(&mut self.notice);
+        }
+    }
+
     /// Writes the main results into the document, once they are known.
     fn mirror(&mut self, facts: Facts<'_>) {
         let Some(summary) = mirror::summary(facts) else { return };
@@ -124,10 +136,8 @@ impl Page {
             return;
         }
         let Some(document) = web_sys::window().and_then(|window| window.document()) else { return };
-        if summary != self.summary
-            && let Some(element) = document.get_element_by_id(SUMMARY)
-        {
-            element.set_text_content(Some(&summary));
+        if summary != self.summary {
+            write(SUMMARY, &summary);
         }
         if let Some(list) = document.get_element_by_id(DETAILS) {
             list.set_text_content(None);
@@ -170,6 +180,13 @@ impl Shared {
                 self.map = Some((known.version, shown.current, rows));
             }
         }
+    }
+}
+
+fn write(element: &str, text: &str) {
+    let document = web_sys::window().and_then(|window| window.document());
+    if let Some(element) = document.and_then(|document| document.get_element_by_id(element)) {
+        element.set_text_content(Some(text));
     }
 }
 

@@ -1,13 +1,20 @@
 //! Colours: one accent, a colour-blind-safe sequential map for values, and colours for classes.
 
-use eframe::egui::{Color32, Context, FontDefinitions, FontFamily, ThemePreference, Visuals};
+use std::sync::Arc;
+
+use eframe::egui::{Color32, Context, FontData, FontDefinitions, FontFamily, ThemePreference, Visuals};
 
 use crate::app::state::ThemeChoice;
 
-/// Lets symbols such as ▲, ▶ and ↺ come from egui's monospaced font, since its proportional one has none.
+/// The interface's own fonts: parts of Ubuntu Light and, for symbols such as ▲, ▶ and ↺, of Hack (src/app/fonts).
 pub fn install_fonts(context: &Context) {
-    let mut fonts = FontDefinitions::default();
-    fonts.families.entry(FontFamily::Proportional).or_default().push("Hack".into());
+    let [text, symbols] =
+        [("text", &include_bytes!("fonts/text.ttf")[..]), ("symbols", &include_bytes!("fonts/symbols.ttf")[..])]
+            .map(|(name, bytes)| (name.to_owned(), Arc::new(FontData::from_static(bytes))));
+    let mut fonts = FontDefinitions::empty();
+    fonts.families.insert(FontFamily::Proportional, vec![text.0.clone(), symbols.0.clone()]);
+    fonts.families.insert(FontFamily::Monospace, vec![symbols.0.clone(), text.0.clone()]);
+    fonts.font_data.extend([text, symbols]);
     context.set_fonts(fonts);
 }
 

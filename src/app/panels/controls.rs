@@ -61,7 +61,7 @@ fn examples(ui: &mut Ui, document: &Document, commands: &mut Vec<Command>) {
     });
     let chosen = presets::PRESETS.iter().find(|preset| document.scenario.name.as_deref() == Some(preset.title));
     if let Some(preset) = chosen {
-        ui.add(Label::new(RichText::new(preset.description).weak().small()).wrap());
+        ui.add(Label::new(RichText::new(preset.description).weak().size(12.0)).wrap());
     }
 }
 
