@@ -480,7 +480,7 @@ impl eframe::App for Tautline {
             let Self { document, answers, studies, pinned, state, page, notice, .. } = self;
             let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
             page.publish(facts, frame.info().cpu_usage);
-            page.tell(notice.as_ref().map(|notice| notice.text.as_str()));
+            page.tell(notice.as_ref().map(|notice| notice.text.clone()).or_else(|| tour::text(state)));
         }
     }
 

@@ -119,12 +119,12 @@ impl Page {
         self.mirror(facts);
     }
 
-    /// Writes the line for the user into the document.
-    pub fn tell(&mut self, notice: Option<&str>) {
+    /// Writes a line for the user into the document.
+    pub fn tell(&mut self, notice: Option<String>) {
         let notice = notice.unwrap_or_default();
         if notice != self.notice {
-            write(NOTICE, notice);
-            notice.clone_into(&mut self.notice);
+            write(NOTICE, &notice);
+            self.notice = notice;
         }
     }
 

@@ -46,6 +46,13 @@ const STEPS: [(&str, &str, Part); 6] = [
     ),
 ];
 
+/// The step on show as a text.
+#[cfg(target_arch = "wasm32")]
+pub fn text(state: &UiState) -> Option<String> {
+    let (title, text, _) = STEPS[state.tour?.min(STEPS.len() - 1)];
+    Some(format!("{title}. {text}"))
+}
+
 /// Draws the step on show.
 pub fn ui(context: &Context, state: &mut UiState, places: &Places) {
     let Some(step) = state.tour else { return };

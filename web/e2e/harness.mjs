@@ -112,9 +112,10 @@ export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
 
         /**
          * Opens the page (or, by a relative `url`, another file of dist/) and waits until it has loaded.
-         * `before(page)` runs ahead of the page's own scripts; further options go to Playwright's newContext.
+         * `before(page)` runs ahead of the page's own scripts, `tour` is what a first visitor gets; further options go to
+         * Playwright's newContext.
          */
-        async function open(url = "", { viewport = { width: 1280, height: 800 }, colorScheme = "light", hash = "", before, ...options } = {}) {
+        async function open(url = "", { viewport = { width: 1280, height: 800 }, colorScheme = "light", hash = "", tour = false, before, ...options } = {}) {
             const context = await browser.newContext({ viewport, colorScheme, ...options });
             contexts.push(context);
             const page = await context.newPage();
@@ -124,6 +125,12 @@ export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
             });
             page.on("pageerror", (error) => note(`uncaught: ${error?.stack ?? error}`));
             page.on("requestfailed", (request) => note(`failed: ${request.url()} ${request.failure()?.errorText}`));
+            // Only those who ask for it are shown around.
+            if (!tour) {
+                await page.addInitScript(() => {
+                    if (!localStorage.getItem("tautline-state")) localStorage.setItem("tautline-state", "(tour_taken:true)");
+                });
+            }
             await before?.(page);
             const address = new URL(url, origin + BASE);
             if (hash) address.hash = hash;

@@ -1,6 +1,6 @@
 // The page starts, and says so plainly where it cannot.
 import assert from "node:assert/strict";
-import { browserTest, colours, screenshot, waitForStart } from "./harness.mjs";
+import { browserTest, colours, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
 
 for (const colorScheme of ["light", "dark"]) {
     browserTest(`the app draws on the canvas (${colorScheme})`, async ({ open }) => {
@@ -16,6 +16,16 @@ for (const colorScheme of ["light", "dark"]) {
         assert.equal(await page.locator("#tautline-error").isVisible(), false);
     });
 }
+
+browserTest("how long a start takes is recorded", async ({ open }) => {
+    const begun = Date.now();
+    const page = await open();
+    await waitForStart(page);
+    const picture = Date.now() - begun;
+    const { critical } = await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
+    console.log(`start: first picture after ${picture} ms, first answer after ${Date.now() - begun} ms`);
+    assert.ok(critical.speed > 11, JSON.stringify(critical));
+});
 
 browserTest("the canvas fills a narrow window without scroll bars", async ({ open }) => {
     const page = await open("", { viewport: { width: 360, height: 640 } });

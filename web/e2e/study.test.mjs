@@ -5,11 +5,12 @@ import { browserTest, commandLine, screenshot, waitForAnalysis, waitForStart } f
 
 const PHONE = { width: 360, height: 740 };
 /** Where things are in a window of 1280 × 800; the map test fails where the switch is not there. */
-const MAP = [912, 16];
-const TABS = { "Along the line": [998, 261], "Directions": [1097, 261], "Campbell": [1171, 261], "Mesh": [1238, 261] };
+const MAP = [912, 41];
+const STOP = [905, 65];
+const TABS = { "Along the line": [998, 309], "Directions": [1097, 309], "Campbell": [1171, 309], "Mesh": [1238, 309] };
 const TOPICS = { "Along the line": "line", "Directions": "polar", "Campbell": "campbell", "Mesh": "convergence" };
 /** On a phone. */
-const PHONE_MAP = [332, 16];
+const PHONE_MAP = [332, 41];
 
 const studies = (page) => page.evaluate(() => window.tautline.studies());
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
@@ -86,14 +87,14 @@ browserTest("a map is cancelled, resumed, and begins anew with another robot", a
     await start(page);
     await page.mouse.click(...MAP);
     await waitForStudies(page, ({ map }) => map.done > 20);
-    await page.mouse.click(905, 40); // Cancel, in the row below the switch.
+    await page.mouse.click(...STOP); // Cancel, in the row below the switch.
     await page.waitForTimeout(500);
     const stopped = (await studies(page)).map;
     await page.waitForTimeout(500);
     assert.deepEqual((await studies(page)).map, stopped, "it goes on");
     assert.ok(stopped.done < stopped.total && !stopped.finished, JSON.stringify(stopped));
     await screenshot(page, "map cancelled");
-    await page.mouse.click(905, 40); // Resume.
+    await page.mouse.click(...STOP); // Resume.
     await waitForStudies(page, ({ map }) => map.finished && map.revision > stopped.revision);
 
     const scenario = await page.evaluate(() => window.tautline.scenario());
@@ -186,7 +187,7 @@ for (const colorScheme of ["light", "dark"]) {
         await waitForStudies(page, ({ map }) => map.finished);
         await page.waitForTimeout(400);
         await screenshot(page, `map phone ${colorScheme}`);
-        await page.mouse.click(103, 464); // Plots
+        await page.mouse.click(103, 475); // Plots
         await page.waitForTimeout(300);
         for (const [tab, x] of Object.entries({ "Along the line": 72, "Directions": 153, "Campbell": 234, "Mesh": 301 })) {
             await page.mouse.click(x, 583);

@@ -1,0 +1,210 @@
+// What is around the answer, where a browser has a say in it: addresses, files, storage, the clipboard, sound, movement.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { browserTest, colours, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
+
+const FILE_MENU = [20, 12];
+const SHARE = [186, 12];
+const PIN = [223, 12];
+const SOUND = [1158, 253];
+/** The height of an entry of the File menu below its title. */
+const FILE_ENTRIES = { "modes": 117, "plot as PNG": 163, "canvas": 209 };
+
+const scenario = (page) => page.evaluate(() => window.tautline.scenario());
+const notice = (page) => page.locator("#tautline-notice").textContent();
+
+async function started(page) {
+    await waitForStart(page);
+    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
+}
+
+/** Grabs the platform, which is in the middle of the canvas at first, and lets go of it elsewhere. */
+async function dragPlatform(page, by) {
+    const [x, y] = [658, 412];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    for (let i = 1; i <= 5; i++) await page.mouse.move(x + (by[0] * i) / 5, y + (by[1] * i) / 5);
+    await page.mouse.up();
+    await page.waitForFunction(() => window.tautline.scenario().motion.position[0] !== 0);
+    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
+}
+
+async function waitForScenario(page, predicate, argument) {
+    await page.waitForFunction(predicate, argument, { timeout: 30_000 });
+    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
+}
+
+browserTest("a drag is undone and redone by keys, and the robot survives a reload", async ({ open }) => {
+    const page = await open();
+    await started(page);
+    await dragPlatform(page, [60, -30]);
+    const dragged = await scenario(page);
+    await page.keyboard.press("Control+z");
+    await waitForScenario(page, () => window.tautline.scenario().motion.position[0] === 0);
+    await page.keyboard.press("Control+Shift+z");
+    await waitForScenario(page, () => window.tautline.scenario().motion.position[0] !== 0);
+    assert.deepEqual(await scenario(page), dragged);
+    await page.waitForTimeout(1500);
+    await page.reload();
+    await started(page);
+    assert.deepEqual(await scenario(page), dragged);
+}, { timeout: 120_000 });
+
+browserTest("a link carries the robot to another page", async ({ open }) => {
+    const page = await open("", { permissions: ["clipboard-read", "clipboard-write"] });
+    await started(page);
+    await dragPlatform(page, [60, -30]);
+    const sent = await scenario(page);
+    await page.mouse.click(...SHARE);
+    await page.waitForFunction(() => document.getElementById("tautline-notice").textContent.includes("clipboard"));
+    const link = await page.evaluate(() => navigator.clipboard.readText());
+    assert.ok(link.includes("#s=") && link.length < 300, link);
+
+    const other = await open("", { hash: new URL(link).hash });
+    await started(other);
+    assert.deepEqual(await scenario(other), sent);
+    // What is done from now on is not undone by a reload.
+    assert.equal(await other.evaluate(() => location.hash), "");
+    await other.evaluate(() => window.tautline.load({ ...window.tautline.scenario(), gravity: 1.62 }));
+    await waitForScenario(other, () => window.tautline.scenario().gravity === 1.62);
+    await other.waitForTimeout(1500);
+    await other.reload();
+    await started(other);
+    assert.equal((await scenario(other)).gravity, 1.62);
+    // Going to a link without loading the page anew.
+    await other.evaluate((hash) => { location.hash = hash; }, new URL(link).hash);
+    await waitForScenario(other, () => window.tautline.scenario().gravity === 9.81);
+    assert.deepEqual(await scenario(other), sent);
+
+    const damaged = await open("", { hash: new URL(link).hash.slice(0, -4) });
+    await started(damaged);
+    assert.match(await notice(damaged), /damaged/);
+    assert.deepEqual((await scenario(damaged)).motion.position, [0, 0]);
+    await screenshot(damaged, "damaged link");
+}, { timeout: 180_000 });
+
+browserTest("scenario files are opened, dropped and saved", async ({ open }) => {
+    const page = await open();
+    await started(page);
+    const other = { ...(await scenario(page)), name: "From a file", gravity: 3.71 };
+    const file = { name: "mars.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(other)) };
+    await page.mouse.click(658, 700);
+    const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.keyboard.press("Control+o")]);
+    await chooser.setFiles(file);
+    await waitForScenario(page, () => window.tautline.scenario().name === "From a file");
+    assert.deepEqual(await scenario(page), other);
+
+    const [saved] = await Promise.all([page.waitForEvent("download"), page.keyboard.press("Control+s")]);
+    assert.equal(saved.suggestedFilename(), "from-a-file.json");
+    assert.deepEqual(JSON.parse(await readFile(await saved.path(), "utf8")), other);
+
+    const drop = (name, text) => page.evaluate(([name, text]) => {
+        const data = new DataTransfer();
+        data.items.add(new File([text], name));
+        const target = document.getElementById("tautline-canvas");
+        for (const kind of ["dragover", "drop"]) {
+            target.dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true }));
+        }
+    }, [name, text]);
+    await drop("moon.json", JSON.stringify({ ...other, name: "Dropped", gravity: 1.62 }));
+    await waitForScenario(page, () => window.tautline.scenario().name === "Dropped");
+    await drop("bad.json", JSON.stringify({ ...other, platform: { mass: -1 } }));
+    await page.waitForFunction(() => document.getElementById("tautline-notice").textContent.includes("platform.mass"));
+    assert.equal((await scenario(page)).name, "Dropped", "the last good robot stays");
+}, { timeout: 120_000 });
+
+browserTest("numbers and pictures are saved", async ({ open }) => {
+    const page = await open();
+    await started(page);
+    const save = async (entry) => {
+        await page.mouse.click(...FILE_MENU);
+        await page.waitForTimeout(400);
+        const [saved] = await Promise.all([page.waitForEvent("download"), page.mouse.click(60, FILE_ENTRIES[entry])]);
+        return [saved.suggestedFilename(), await readFile(await saved.path())];
+    };
+    const [name, csv] = await save("modes");
+    assert.equal(name, "paper-robot-modes.csv");
+    const rows = csv.toString().trim().split("\r\n").map((row) => row.split(","));
+    assert.deepEqual(rows[0].slice(0, 4), ["real", "imaginary", "multiplicity", "frequency_hz"]);
+    const { eigenvalues } = await page.evaluate(() => window.tautline.analysis());
+    // Every conjugate pair has one row, and says how often it comes.
+    const counted = rows.slice(1).reduce((sum, row) => sum + Number(row[2]) * (Number(row[1]) > 0 ? 2 : 1), 0);
+    assert.equal(counted, eigenvalues.length);
+    const known = new Set(eigenvalues.map(([re, im]) => `${re} ${Math.abs(im)}`));
+    assert.ok(rows.slice(1).every((row) => known.has(`${Number(row[0])} ${Number(row[1])}`)), csv.toString());
+
+    for (const [entry, expected, smallest] of [["canvas", "paper-robot-canvas.png", 400], ["plot as PNG", "paper-robot-plot.png", 200]]) {
+        const [name, png] = await save(entry);
+        assert.equal(name, expected);
+        assert.deepEqual([...png.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47]);
+        const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
+        assert.ok(width > smallest && height > smallest, `${width} × ${height}`);
+        const { count } = await colours(page, png);
+        assert.ok(count > 10, `${count} colours`);
+    }
+}, { timeout: 120_000 });
+
+browserTest("first visitors are shown around, once", async ({ open }) => {
+    const page = await open("", { tour: true });
+    await started(page);
+    assert.match(await notice(page), /Grab the platform/);
+    await screenshot(page, "tour");
+    await page.keyboard.press("Escape");
+    await page.waitForFunction(() => document.getElementById("tautline-notice").textContent === "");
+    await page.waitForTimeout(3000);
+    await page.reload();
+    await started(page);
+    assert.equal(await notice(page), "");
+}, { timeout: 120_000 });
+
+browserTest("nothing moves by itself for those who do not want it", async ({ open }) => {
+    const moves = async (reducedMotion) => {
+        const page = await open("", { reducedMotion });
+        await started(page);
+        await page.waitForTimeout(2000);
+        const before = await page.screenshot();
+        await page.waitForTimeout(700);
+        return !before.equals(await page.screenshot());
+    };
+    assert.equal(await moves("reduce"), false);
+    assert.equal(await moves("no-preference"), true);
+}, { timeout: 120_000 });
+
+browserTest("the mode's frequency sounds when it is asked to", async ({ open }) => {
+    const page = await open("", {
+        before: (page) => page.addInitScript(() => {
+            window.heard = [];
+            const set = AudioParam.prototype.setTargetAtTime;
+            AudioParam.prototype.setTargetAtTime = function (value, ...rest) {
+                window.heard.push(value);
+                return set.call(this, value, ...rest);
+            };
+        }),
+    });
+    await started(page);
+    assert.deepEqual(await page.evaluate(() => window.heard), [], "silent until asked");
+    await page.mouse.click(...SOUND);
+    await page.waitForFunction(() => window.heard.length >= 2);
+    const { critical } = await page.evaluate(() => window.tautline.analysis());
+    const [frequency, volume] = await page.evaluate(() => window.heard);
+    assert.ok(Math.abs(frequency / critical.frequency_hz - 256) < 0.01, `${frequency} Hz`);
+    assert.ok(volume > 0 && volume < 0.2, `volume ${volume}`);
+    await page.mouse.click(...SOUND);
+    await page.waitForFunction(() => window.heard.at(-1) === 0);
+}, { timeout: 120_000 });
+
+browserTest("a screen reader is told the robot and its results", async ({ open }) => {
+    const page = await open();
+    await started(page);
+    const details = () => page.locator("#tautline-details li").allTextContents();
+    assert.match(await page.locator("#tautline-summary").textContent(), /Critical speed 11\.2990 metres per second/);
+    assert.match((await details()).join(" "), /Paper robot with 4 cables\..*Stable at this speed/);
+    await page.mouse.click(...PIN);
+    await page.waitForTimeout(1500);
+    await dragPlatform(page, [60, -30]);
+    const { critical } = await page.evaluate(() => window.tautline.analysis());
+    const expected = `Critical speed ${critical.speed.toFixed(4)} metres per second`;
+    await page.waitForFunction((text) => document.getElementById("tautline-summary").textContent.includes(text), expected);
+    assert.match((await details()).join(" "), /Against the pinned design: -\d\.\d{4} metres per second/);
+    await screenshot(page, "pinned");
+}, { timeout: 120_000 });
