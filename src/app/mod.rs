@@ -345,17 +345,19 @@ impl Tautline {
     }
 
     fn wide(&mut self, ui: &mut Ui) {
-        Panel::left("controls").default_size(380.0).min_size(340.0).show(ui, |ui| {
+        let [left, right] = self.state.widths;
+        let controls = Panel::left("controls").default_size(left).min_size(340.0).show(ui, |ui| {
             ScrollArea::vertical().show(ui, |ui| {
                 self.controls(ui);
             });
         });
-        Panel::right("answer").default_size(340.0).min_size(280.0).show(ui, |ui| {
+        let answer = Panel::right("answer").default_size(right).min_size(280.0).show(ui, |ui| {
             ui.add_space(6.0);
             self.answer(ui);
             ui.separator();
             self.plots(ui);
         });
+        self.state.widths = [controls, answer].map(|panel| panel.response.rect.width());
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
     }
 

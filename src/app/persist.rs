@@ -23,12 +23,14 @@ pub fn document(storage: &dyn Storage) -> Option<Document> {
 
 /// How it was looked at.
 pub fn state(storage: &dyn Storage) -> Option<UiState> {
-    eframe::get_value(storage, STATE)
+    serde_json::from_str(&storage.get_string(STATE)?).ok()
 }
 
 /// Writes down how things are looked at.
 pub fn keep_state(storage: &mut dyn Storage, state: &UiState) {
-    eframe::set_value(storage, STATE, state);
+    if let Ok(text) = serde_json::to_string(state) {
+        storage.set_string(STATE, text);
+    }
 }
 
 /// Writes the document down soon after each change.
@@ -111,11 +113,11 @@ mod tests {
     fn what_cannot_be_read_is_left_out() {
         let mut storage = Memory::default();
         storage.set_string(SCENARIO, "{}".into());
-        storage.set_string(STATE, "(plot: Ghost)".into());
+        storage.set_string(STATE, r#"{"plot": "Ghost"}"#.into());
         assert!(document(&storage).is_none() && state(&storage).is_none());
         storage.set_string(SCENARIO, presets::PRESETS[0].scenario().to_json());
         storage.set_string(ORIGINAL, "no JSON".into());
-        storage.set_string(STATE, "(campbell_hz: 9.0)".into());
+        storage.set_string(STATE, r#"{"campbell_hz": 9.0}"#.into());
         assert_eq!(document(&storage), Some(Document::opened(presets::PRESETS[0].scenario())));
         assert_eq!(state(&storage).map(|state| (state.campbell_hz, state.plot)), Some((9.0, Plot::default())));
     }

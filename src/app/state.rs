@@ -96,6 +96,8 @@ pub struct UiState {
     pub mode: ModeChoice,
     /// The mode shape's movement.
     pub playback: Playback,
+    /// The widths of the panels on the left and on the right, in points.
+    pub widths: [f32; 2],
     /// Whether the tour has been taken or skipped.
     pub tour_taken: bool,
     /// The tour's step on show, from 0.
@@ -243,6 +245,7 @@ impl Default for UiState {
             page: Page::default(),
             mode: critical_mode(),
             playback: Playback::default(),
+            widths: [380.0, 340.0],
             tour_taken: false,
             tour: None,
             wanted: None,

@@ -128,7 +128,7 @@ export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
             // Only those who ask for it are shown around.
             if (!tour) {
                 await page.addInitScript(() => {
-                    if (!localStorage.getItem("tautline-state")) localStorage.setItem("tautline-state", "(tour_taken:true)");
+                    if (!localStorage.getItem("tautline-state")) localStorage.setItem("tautline-state", '{"tour_taken":true}');
                 });
             }
             await before?.(page);
