@@ -29,6 +29,8 @@ pub mod app;
 pub mod cli;
 #[cfg(feature = "compute")]
 pub mod compute;
+#[cfg(all(feature = "js", target_arch = "wasm32"))]
+pub mod js;
 #[cfg(feature = "scenario")]
 pub mod scenario;
 

@@ -5,12 +5,13 @@
 use std::path::{Path, PathBuf};
 
 /// Each room with those it may use.
-const ROOMS: [(&str, &[&str]); 8] = [
+const ROOMS: [(&str, &[&str]); 9] = [
     ("robot", &[]),
     ("mechanics", &["robot"]),
     ("stability", &["robot", "mechanics"]),
     ("study", &["robot", "mechanics", "stability"]),
     ("scenario", &["robot", "mechanics", "stability", "study"]),
+    ("js", &["robot", "mechanics", "stability", "study", "scenario"]),
     ("compute", &["robot", "mechanics", "stability", "study", "scenario"]),
     ("app", &["robot", "mechanics", "stability", "study", "scenario", "compute"]),
     ("cli", &["robot", "mechanics", "stability", "study", "scenario", "compute"]),

@@ -3,8 +3,8 @@
 #
 #   fmt          formatting                       test     cargo test
 #   clippy       lints, native                    core     the numerics alone, without features
-#   clippy-wasm  lints, browser                   web      the page, built for release
-#   doc          the documentation builds         e2e      the page in a browser (needs web)
+#   clippy-wasm  lints, browser                   web      the page and the npm package, built for release
+#   doc          the documentation builds         e2e      both in a browser (needs web)
 #                                                 desktop  the program in a real window
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -16,7 +16,7 @@ step_clippy() { cargo clippy --all-targets -- -D warnings; }
 
 step_clippy-wasm() {
     local with_wasm=(web/toolchain.sh --clippy) binary features
-    for binary in tautline:app worker:compute; do
+    for binary in tautline:app worker:compute js:js; do
         features=(--target wasm32-unknown-unknown --bin "${binary%:*}" --no-default-features --features "${binary#*:}")
         if "${with_wasm[@]}" cargo clippy --version >/dev/null 2>&1; then
             "${with_wasm[@]}" cargo clippy "${features[@]}" -- -D warnings
@@ -38,7 +38,10 @@ step_test() {
 # Lints compile it with nothing but its own dependencies; its unit tests run with the others.
 step_core() { cargo clippy --no-default-features --lib -- -D warnings; }
 
-step_web() { web/serve.sh --build-only; }
+step_web() {
+    web/serve.sh --build-only
+    web/npm/build.sh
+}
 
 # A subshell, for the sake of `cd`.
 step_e2e() (

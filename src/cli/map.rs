@@ -7,10 +7,11 @@ use crate::cli::rows::{COLUMNS, Form, Options, Row, Rows};
 use crate::cli::text::{CAVEAT, critical_sentence, digits};
 use crate::cli::{Answer, Output, read_scenario};
 use crate::robot::Vec2;
+use crate::scenario::options::MOST_POINTS;
 use crate::study::{Answer as Found, Asked, Directions, Grid, Study, Verdict, evenly};
 
 /// Points in a row or column.
-const POINTS: std::ops::RangeInclusive<i64> = 1..=2000;
+const POINTS: std::ops::RangeInclusive<i64> = 1..=MOST_POINTS as i64;
 /// Wider maps show a digit per point.
 const WIDEST_TABLE: usize = 20;
 
@@ -41,14 +42,11 @@ CSV columns: x,y,feasible,critical_speed,frequency_hz,kind,cable
 SI units, cables counted from 1, empty where there is none.";
 
 fn direction(text: &str) -> Result<Directions, String> {
-    let vector = match text {
-        "worst" => return Ok(Directions::Worst(Directions::WORST_OF)),
-        "+x" => Some(Vec2::x()),
-        "-x" => Some(-Vec2::x()),
-        "+y" => Some(Vec2::y()),
-        "-y" => Some(-Vec2::y()),
-        _ => text.split_once(',').and_then(|(x, y)| Some(Vec2::new(x.trim().parse().ok()?, y.trim().parse().ok()?))),
-    };
+    if let Some((_, directions)) = Directions::WORDS.iter().find(|(word, _)| *word == text) {
+        return Ok(*directions);
+    }
+    let vector =
+        text.split_once(',').and_then(|(x, y)| Some(Vec2::new(x.trim().parse().ok()?, y.trim().parse().ok()?)));
     let vector = vector.filter(|vector| vector.iter().all(|c| c.is_finite()) && *vector != Vec2::zeros());
     let allowed = "allowed: worst, +x, -x, +y, -y or two numbers DX,DY that are not both zero";
     vector.map(Directions::One).ok_or_else(|| allowed.into())

@@ -1,7 +1,8 @@
-//! Everything that is JSON: the scenario file, the presets, the analysis report; and the scenario as a link.
+//! Everything that is JSON: the scenario file, the presets, the analysis report, options; and the scenario as a link.
 
 mod layout;
 pub mod link;
+pub mod options;
 pub mod presets;
 mod reader;
 pub mod report;

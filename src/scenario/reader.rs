@@ -197,6 +197,11 @@ impl<'a> Value<'a> {
         choice.map(|choice| choice.1)
     }
 
+    /// Whether this is a list, of whatever.
+    pub(super) fn is_list(&self) -> bool {
+        matches!(self.content, Content::Json(text) if text.starts_with('['))
+    }
+
     /// A list; messages call it `allowed`.
     pub(super) fn list(&self, allowed: &str) -> Vec<Value<'a>> {
         self.items().unwrap_or_else(|| {

@@ -228,38 +228,48 @@ impl Report {
     }
 
     /// The same by `method`, calling `watch` with the speed (m/s) up to which the search has come, again and again.
-    pub fn analyze_watched(
-        robot: &Robot,
-        motion: &Motion,
-        limit: f64,
-        method: Method,
-        mut watch: impl FnMut(f64),
-    ) -> Self {
+    pub fn analyze_watched(robot: &Robot, motion: &Motion, limit: f64, method: Method, watch: impl FnMut(f64)) -> Self {
         let speed = motion.speed();
         let local = match Local::new(robot, motion) {
             Ok(local) => local,
-            Err(failure) => {
-                return Self { searched_up_to: limit, ..Self::failed(&failure_sentence(&failure), speed) };
-            }
+            Err(failure) => return Self::infeasible(&failure, speed, limit),
         };
         let spectrum = match method {
             Method::Structured => local.spectrum(speed),
             Method::Dense => Eigenproblem::new(&local.vibration).and_then(|problem| problem.spectrum(speed)),
         };
         let mut report = Self::of_pose(&local, speed, spectrum.as_ref().ok());
+        report.search(&local, limit, method, watch);
+        report
+    }
+
+    /// The statics and the critical speed, searched up to `limit` (m/s), without what belongs to the motion's own speed:
+    /// for those who ask again and again.
+    pub fn critical_speed(robot: &Robot, motion: &Motion, limit: f64) -> Self {
+        let local = match Local::new(robot, motion) {
+            Ok(local) => local,
+            Err(failure) => return Self::infeasible(&failure, motion.speed(), limit),
+        };
+        let mut report = Self::at_rest(&local, motion.speed());
+        report.search(&local, limit, Method::default(), |_| {});
+        report
+    }
+
+    fn infeasible(failure: &Failure, speed: f64, limit: f64) -> Self {
+        Self { searched_up_to: limit, ..Self::failed(&failure_sentence(failure), speed) }
+    }
+
+    fn search(&mut self, local: &Local, limit: f64, method: Method, mut watch: impl FnMut(f64)) {
         let mut search = CriticalSearch::by(method, limit);
         loop {
             watch(search.searched_up_to());
             match search.advance(&local.vibration) {
                 Ok(None) => {}
-                Ok(Some(outcome)) => {
-                    report.set_critical(&outcome, limit);
-                    return report;
-                }
+                Ok(Some(outcome)) => return self.set_critical(&outcome, limit),
                 Err(error) => {
-                    report.searched_up_to = search.searched_up_to();
-                    report.reason = Some(sentence(&error.to_string()));
-                    return report;
+                    self.searched_up_to = search.searched_up_to();
+                    self.reason = Some(sentence(&error.to_string()));
+                    return;
                 }
             }
         }

@@ -65,6 +65,14 @@ pub enum Directions {
 impl Directions {
     /// How many directions the worst is sought among, unless told otherwise.
     pub const WORST_OF: usize = 16;
+    /// Those that have a word for it.
+    pub const WORDS: [(&'static str, Self); 5] = [
+        ("worst", Self::Worst(Self::WORST_OF)),
+        ("+x", Self::One(Vec2::new(1.0, 0.0))),
+        ("-x", Self::One(Vec2::new(-1.0, 0.0))),
+        ("+y", Self::One(Vec2::new(0.0, 1.0))),
+        ("-y", Self::One(Vec2::new(0.0, -1.0))),
+    ];
 
     /// The unit vectors; none for a vector that has no direction.
     fn each(self) -> Vec<Vec2> {

@@ -1,4 +1,5 @@
-// What the browser tests share: a server for dist/, a browser, and a test that fails on any error on the page.
+// What the browser tests share: a server for the page (and the npm package), a browser, and a test that fails on any
+// error on the page.
 //
 //   browserTest("what it shows", async ({ open }) => {
 //       const page = await open("", { viewport: { width: 360, height: 640 }, colorScheme: "dark" });
@@ -7,7 +8,7 @@
 //
 // CHROMIUM names the browser's program, if it is not one of those below on PATH.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
+import { spawnSync } from "node:child_process";
 import { accessSync, constants, existsSync, mkdirSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import { createServer } from "node:http";
@@ -18,11 +19,13 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
 const ROOT = fileURLToPath(new URL("../../", import.meta.url));
-const DIST = path.join(ROOT, "dist");
 const PICTURES = path.join(ROOT, "target", "pictures");
 
-// Published pages rarely live at the root; this shows that every address is relative.
-const BASE = "/some/where/";
+/** What is served; published pages rarely live at the root, and this shows that every address is relative. */
+export const SITES = {
+    page: { base: "/some/where/", folder: path.join(ROOT, "dist"), build: "web/serve.sh --build-only" },
+    package: { base: "/package/", folder: path.join(ROOT, "target", "npm", "tautline"), build: "web/npm/build.sh" },
+};
 
 const TYPES = {
     ".css": "text/css",
@@ -59,12 +62,13 @@ function findChromium() {
 async function startServer() {
     const server = createServer(async (request, response) => {
         const { pathname } = new URL(request.url, "http://localhost");
-        let name = pathname.startsWith(BASE) ? pathname.slice(BASE.length) : "..";
-        if (name === "") name = "index.html";
-        const file = path.join(DIST, decodeURIComponent(name));
+        const site = Object.values(SITES).find(({ base }) => pathname.startsWith(base));
+        if (!site) return response.writeHead(404).end();
+        const name = pathname.slice(site.base.length) || "index.html";
+        const file = path.join(site.folder, decodeURIComponent(name));
         const type = TYPES[path.extname(file)];
         // A type that is missing in TYPES is missing for good: the page must not depend on a guess.
-        if (!type || !file.startsWith(DIST + path.sep)) return response.writeHead(404).end();
+        if (!type || !file.startsWith(site.folder + path.sep)) return response.writeHead(404).end();
         try {
             response.writeHead(200, { "content-type": type, "cache-control": "no-cache" }).end(await readFile(file));
         } catch {
@@ -79,9 +83,6 @@ async function startServer() {
 let shared;
 function share() {
     shared ??= (async () => {
-        await readFile(path.join(DIST, "index.html")).catch(() => {
-            throw new Error("dist/ has no page: run web/serve.sh --build-only first");
-        });
         const server = await startServer();
         const browser = await chromium.launch({ executablePath: findChromium(), args: FLAGS });
         return { browser, server, origin: `http://127.0.0.1:${server.address().port}` };
@@ -100,8 +101,9 @@ after(async () => {
  * its pages, except those whose text matches one of `allow` (regular expressions). When it fails, what
  * its pages showed is in target/pictures/.
  */
-export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
+export function browserTest(name, body, { allow = [], timeout = 60_000, site = SITES.page } = {}) {
     test(name, { timeout }, async () => {
+        if (!existsSync(site.folder)) throw new Error(`${site.folder} is missing: run ${site.build} first`);
         const { browser, origin } = await share();
         const pages = [];
         const contexts = [];
@@ -111,7 +113,7 @@ export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
         };
 
         /**
-         * Opens the page (or, by a relative `url`, another file of dist/) and waits until it has loaded.
+         * Opens the page (or, by a relative `url`, another file of the site) and waits until it has loaded.
          * `before(page)` runs ahead of the page's own scripts, `tour` is what a first visitor gets; further options go to
          * Playwright's newContext.
          */
@@ -132,14 +134,14 @@ export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
                 });
             }
             await before?.(page);
-            const address = new URL(url, origin + BASE);
+            const address = new URL(url, origin + site.base);
             if (hash) address.hash = hash;
             await page.goto(address.href);
             return page;
         }
 
         try {
-            await body({ open, browser, origin: origin + BASE });
+            await body({ open, browser, origin: origin + site.base });
             assert.deepEqual(errors, [], "the page reported errors");
         } catch (error) {
             for (const [i, page] of pages.entries()) {
@@ -209,11 +211,19 @@ export async function colours(page, png) {
     }
 }
 
-/** What the command line says to a scenario. */
-export function commandLine(scenario) {
+/** What the command line prints for these arguments, with this on its standard input. */
+export function runCommandLine(args, input = "") {
     const folder = process.env.CARGO_TARGET_DIR ?? `${ROOT}target`;
     const program = ["debug", "release"].map((profile) => `${folder}/${profile}/tautline`).find(existsSync);
     assert.ok(program, "no native program to compare with: run cargo build first");
-    const input = JSON.stringify(scenario);
-    return JSON.parse(execFileSync(program, ["analyze", "-", "--json"], { input, encoding: "utf8", maxBuffer: 1e8 }));
+    const { status, stdout, stderr, error } = spawnSync(program, args, { input, encoding: "utf8", maxBuffer: 1e8 });
+    assert.notEqual(status, null, String(error));
+    return { status, stdout, stderr };
+}
+
+/** What the command line says to a scenario. */
+export function commandLine(scenario) {
+    const { status, stdout, stderr } = runCommandLine(["analyze", "-", "--json"], JSON.stringify(scenario));
+    assert.equal(status, 0, stderr);
+    return JSON.parse(stdout);
 }

@@ -1,0 +1,137 @@
+//! The core for JavaScript, without interface and engine: what is inside the npm package `tautline` (`web/npm`).
+//!
+//! Scenarios, options and results cross the border as JSON text, read and written as for the command line;
+//! `web/npm/index.js` makes objects of it. What is wrong with the input becomes a JavaScript `Error`.
+
+use serde::Serialize;
+use wasm_bindgen::prelude::*;
+
+use crate::robot::{Motion, Robot};
+use crate::scenario::options::{MapOptions, max_speed};
+use crate::scenario::report::{CriticalReport, KindReport};
+use crate::scenario::{Report, Scenario};
+use crate::study::{Answer, Asked, Directions, Grid, Study, Verdict};
+
+type Text = Result<String, JsError>;
+
+/// The whole analysis: `tautline/analysis/1`.
+///
+/// # Errors
+/// All that is wrong with the scenario or the options.
+#[wasm_bindgen]
+pub fn analyze(scenario: &str, options: &str) -> Text {
+    let (robot, motion) = read(scenario)?;
+    Ok(serde_json::to_string(&Report::analyze(&robot, &motion, max_speed(options)?))?)
+}
+
+/// The critical speed alone, or why there is none.
+///
+/// # Errors
+/// All that is wrong with the scenario or the options.
+#[wasm_bindgen(js_name = criticalSpeed)]
+pub fn critical_speed(scenario: &str, options: &str) -> Text {
+    let (robot, motion) = read(scenario)?;
+    let report = Report::critical_speed(&robot, &motion, max_speed(options)?);
+    let Report { feasible, reason, critical, searched_up_to, .. } = report;
+    Ok(serde_json::to_string(&CriticalSpeed { feasible, reason, critical: critical.into(), searched_up_to })?)
+}
+
+/// A map over the workspace, to be computed row by row of its table, so that the page can do something else between.
+#[wasm_bindgen]
+pub struct MapStudy {
+    robot: Robot,
+    grid: Grid,
+    study: Study,
+}
+
+#[wasm_bindgen]
+impl MapStudy {
+    /// Checks the input; nothing is computed yet.
+    ///
+    /// # Errors
+    /// All that is wrong with the scenario or the options.
+    #[wasm_bindgen(constructor)]
+    pub fn new(scenario: &str, options: &str) -> Result<Self, JsError> {
+        let (robot, motion) = read(scenario)?;
+        let MapOptions { nx, ny, directions, limit } = MapOptions::from_json(options)?;
+        let grid = Grid::of(&robot, nx, ny);
+        let directions = directions.unwrap_or(Directions::One(motion.direction()));
+        let study = Study::Map { grid, directions, asked: Asked::Critical { limit } };
+        Ok(Self { robot, grid, study })
+    }
+
+    /// How many rows the table has.
+    #[wasm_bindgen(getter)]
+    pub fn length(&self) -> usize {
+        self.grid.len()
+    }
+
+    /// Computes one row of the table, as the command line's CSV has it.
+    ///
+    /// # Errors
+    /// None in practice: every row can be written.
+    pub fn row(&self, index: usize) -> Text {
+        let verdict = match self.study.answer(&self.robot, index) {
+            Answer::Critical { verdict, .. } => verdict,
+            // Not what this study asks for.
+            Answer::Growth(_) | Answer::Spectrum(_) => Verdict::NotConverged,
+        };
+        let at = self.grid.position(index);
+        let found = Found::from(verdict.critical().map(CriticalReport::from));
+        let Found { speed, frequency_hz, kind, cable } = found;
+        let feasible = verdict.is_feasible();
+        Ok(serde_json::to_string(&Row {
+            x: at.x,
+            y: at.y,
+            feasible,
+            critical_speed: speed,
+            frequency_hz,
+            kind,
+            cable,
+        })?)
+    }
+}
+
+fn read(scenario: &str) -> Result<(Robot, Motion), JsError> {
+    Ok(Scenario::from_json(scenario)?.to_robot()?)
+}
+
+#[derive(Serialize)]
+struct CriticalSpeed {
+    feasible: bool,
+    reason: Option<String>,
+    #[serde(flatten)]
+    critical: Found,
+    searched_up_to: f64,
+}
+
+#[derive(Serialize)]
+struct Row {
+    x: f64,
+    y: f64,
+    feasible: bool,
+    critical_speed: Option<f64>,
+    frequency_hz: Option<f64>,
+    kind: Option<KindReport>,
+    cable: Option<usize>,
+}
+
+/// A critical speed, or null for each of its fields.
+#[derive(Default, Serialize)]
+struct Found {
+    speed: Option<f64>,
+    frequency_hz: Option<f64>,
+    kind: Option<KindReport>,
+    cable: Option<usize>,
+}
+
+impl From<Option<CriticalReport>> for Found {
+    fn from(critical: Option<CriticalReport>) -> Self {
+        critical.map_or_else(Self::default, |CriticalReport { speed, frequency_hz, kind, cable }| Self {
+            speed: Some(speed),
+            frequency_hz: Some(frequency_hz),
+            kind: Some(kind),
+            cable: Some(cable),
+        })
+    }
+}

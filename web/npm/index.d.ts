@@ -1,0 +1,257 @@
+// Types of the package `tautline`. SI units throughout; x to the right, y up; cables are counted from 1.
+
+/** A point [x, y] in m, or a direction. */
+export type Vector = readonly [x: number, y: number];
+
+// ---- The scenario: `tautline/scenario/1` -------------------------------------------------------------------------
+
+/** A robot, where its platform is and how it moves: the scenario file as an object. There are no other fields. */
+export interface Scenario {
+    /** The format's name and version. */
+    readonly schema?: "tautline/scenario/1";
+    /** A title for people. */
+    readonly name?: string;
+    /** Gravitational acceleration, downward, in m/s²: 0 or more. 9.81 unless given. */
+    readonly gravity?: number;
+    /** What the cables are made of. */
+    readonly cable: CableMaterial;
+    readonly platform: {
+        /** In kg, greater than 0. */
+        readonly mass: number;
+    };
+    /** 3 to 8 cables with different anchors, exactly two of them with tension "equilibrium". */
+    readonly cables: readonly Cable[];
+    /** A whole number from 2 to 200; 10 is usual. */
+    readonly elements_per_cable: number;
+    /** Damping in proportion to mass and to stiffness, αM + βK: 0 or more. */
+    readonly damping: {
+        /** In 1/s. */
+        readonly alpha: number;
+        /** In s. */
+        readonly beta: number;
+    };
+    /** The paper's simplified stiffness or the full one. "secant" unless given. */
+    readonly linearisation?: "secant" | "tangent";
+    readonly motion: {
+        /** Where the platform is, in m. */
+        readonly position: Vector;
+        /** Of any length but zero. */
+        readonly direction: Vector;
+        /** In m/s, 0 or more. */
+        readonly speed: number;
+    };
+}
+
+export interface CableMaterial {
+    /** In Pa, greater than 0. */
+    readonly youngs_modulus: number;
+    /** Cross-section in m², greater than 0. */
+    readonly area: number;
+    /** Per unstretched length in kg/m, greater than 0. */
+    readonly mass_per_length: number;
+    /** The strain measure. "green" unless given. */
+    readonly strain?: "green" | "engineering";
+}
+
+/** One cable, from the platform to its winch. */
+export interface Cable {
+    /** The winch point in m. */
+    readonly anchor: Vector;
+    readonly tension: Tension;
+}
+
+/** What sets a cable's tension: the platform's equilibrium, a constant in N, or a law of the position (x, y). */
+export type Tension = "equilibrium" | ConstantTension | TensionLaw;
+
+export interface ConstantTension {
+    /** In N, greater than 0. */
+    readonly constant: number;
+}
+
+/** hypot(h0 + hx x + hy y, v0 + vx x + vy y), in N. */
+export interface TensionLaw {
+    readonly horizontal: readonly [h0: number, hx: number, hy: number];
+    readonly vertical: readonly [v0: number, vx: number, vy: number];
+}
+
+// ---- Results -----------------------------------------------------------------------------------------------------
+
+/** How stability is lost: an oscillation grows, or a displacement without oscillating. */
+export type Kind = "flutter" | "divergence";
+
+/** `tautline/analysis/1`, what `tautline analyze --json` prints. */
+export type Analysis = FeasibleAnalysis | InfeasibleAnalysis;
+
+interface AnalysisFields {
+    schema: "tautline/analysis/1";
+    /** The scenario's speed in m/s. */
+    speed: number;
+    /** The speed in m/s up to which the critical speed was searched. */
+    searched_up_to: number;
+}
+
+/** The pose has a taut equilibrium. */
+export interface FeasibleAnalysis extends AnalysisFields {
+    feasible: true;
+    /** A sentence where the answer is not complete, because eigenvalues could not be computed. */
+    reason: string | null;
+    /** One entry per cable. */
+    cables: CableAtRest[];
+    /** All eigenvalues at the scenario's speed in 1/s, multiplicity included; empty where they could not be computed. */
+    eigenvalues: [re: number, im: number][];
+    /** The largest real part, in 1/s. */
+    max_growth_rate: number | null;
+    /** Whether every real part is negative. */
+    stable: boolean | null;
+    /** The smallest speed at which a vibration begins to grow; null where none was found up to `searched_up_to`. */
+    critical: Critical | null;
+}
+
+/** The pose has none that could be computed. */
+export interface InfeasibleAnalysis extends AnalysisFields {
+    feasible: false;
+    /** Why, as a sentence. */
+    reason: string;
+    cables: [];
+    eigenvalues: [];
+    max_growth_rate: null;
+    stable: null;
+    critical: null;
+}
+
+/** One cable at rest. */
+export interface CableAtRest {
+    /** In m. */
+    unstretched_length: number;
+    /** In N. */
+    tension_at_platform: number;
+    /** In N. */
+    tension_at_winch: number;
+    /** Change of the unstretched length with the platform's path. */
+    length_rate: number;
+    /** Its second derivative, in 1/m. */
+    length_curvature: number;
+    /** From the platform to the winch, in m. */
+    nodes: [x: number, y: number][];
+}
+
+/** A critical speed. */
+export interface Critical {
+    /** In m/s. */
+    speed: number;
+    /** In Hz; 0 for divergence. */
+    frequency_hz: number;
+    kind: Kind;
+    /** The responsible cable, from 1. */
+    cable: number;
+}
+
+/** What `criticalSpeed` gives; `speed` tells one from the other. */
+export type CriticalSpeed = FoundCriticalSpeed | NoCriticalSpeed;
+
+export interface FoundCriticalSpeed extends Critical {
+    feasible: true;
+    reason: null;
+    /** In m/s: the limit of the search. */
+    searched_up_to: number;
+}
+
+/** There is none up to `searched_up_to`, or it is not known. */
+export interface NoCriticalSpeed {
+    /** Whether the pose has a taut equilibrium. */
+    feasible: boolean;
+    /** Why it is not known, as a sentence; null where all speeds up to `searched_up_to` are stable. */
+    reason: string | null;
+    speed: null;
+    frequency_hz: null;
+    kind: null;
+    cable: null;
+    /** In m/s. */
+    searched_up_to: number;
+}
+
+/** One point of a map; `critical_speed` tells one from the other. */
+export type MapRow = FoundMapRow | EmptyMapRow;
+
+export interface FoundMapRow {
+    /** In m. */
+    x: number;
+    /** In m. */
+    y: number;
+    feasible: true;
+    /** In m/s. */
+    critical_speed: number;
+    /** In Hz; 0 for divergence. */
+    frequency_hz: number;
+    kind: Kind;
+    /** The responsible cable, from 1. */
+    cable: number;
+}
+
+/** Not feasible; or feasible, with no critical speed up to `maxSpeed` (or none that could be computed). */
+export interface EmptyMapRow {
+    /** In m. */
+    x: number;
+    /** In m. */
+    y: number;
+    feasible: boolean;
+    critical_speed: null;
+    frequency_hz: null;
+    kind: null;
+    cable: null;
+}
+
+// ---- Functions ---------------------------------------------------------------------------------------------------
+
+export interface SearchOptions {
+    /** Critical speeds are searched up to this speed in m/s, greater than 0. 40 unless given. */
+    maxSpeed?: number | undefined;
+}
+
+/**
+ * In which direction the platform moves: as the scenario says, in the worst of 16 directions (the one with the lowest
+ * critical speed), along an axis, or along a vector of any length but zero.
+ */
+export type Direction = "motion" | "worst" | "+x" | "-x" | "+y" | "-y" | Vector;
+
+export interface MapOptions extends SearchOptions {
+    /** Points in a row: a whole number from 1 to 2000. */
+    nx: number;
+    /** Rows: a whole number from 1 to 2000. */
+    ny: number;
+    /** "motion" unless given. */
+    direction?: Direction | undefined;
+    /** Called from time to time, and at the end, with the number of rows that are done and of all. */
+    onProgress?: ((done: number, total: number) => void) | undefined;
+    /** Its abort stops the map; the promise is rejected with the signal's reason. */
+    signal?: AbortSignal | undefined;
+}
+
+/** Where the WebAssembly module may come from. */
+export type ModuleSource = string | URL | Request | Response | BufferSource | WebAssembly.Module;
+
+/**
+ * Loads the WebAssembly module; the other functions throw before it is done. Further calls do nothing.
+ *
+ * @param source Where the module is, if not beside the package's files: an address or the module itself.
+ */
+export function init(source?: ModuleSource | Promise<ModuleSource>): Promise<void>;
+
+/**
+ * Statics, all eigenvalues at the scenario's speed, and the critical speed.
+ *
+ * @param scenario An object, or the text of a scenario file.
+ * @throws {Error} All that is wrong, a line per field with its path, its value and what is allowed.
+ */
+export function analyze(scenario: Scenario | string, options?: SearchOptions): Analysis;
+
+/** The critical speed alone: faster, for those who ask again and again. Arguments and errors as for `analyze`. */
+export function criticalSpeed(scenario: Scenario | string, options?: SearchOptions): CriticalSpeed;
+
+/**
+ * The critical speed at nx × ny points of the workspace, the rectangle around all anchors: along the rows, from the
+ * lowest one up. Computed in the calling thread, with frequent pauses that let others have their turn.
+ *
+ * Errors as for `analyze`; the promise is rejected with them.
+ */
+export function map(scenario: Scenario | string, options: MapOptions): Promise<MapRow[]>;
