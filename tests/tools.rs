@@ -1,6 +1,7 @@
 //! What is around the answer: undo, files, the robot's layout, settings, keys.
 
 #![cfg(feature = "app")]
+#![expect(clippy::float_cmp, reason = "values that are typed, dragged and brought back are the same to the last bit")]
 
 #[path = "common/interface.rs"]
 mod interface;

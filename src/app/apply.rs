@@ -33,12 +33,14 @@ impl Tautline {
                 self.tell(text);
             }
             Command::Undo => {
-                let before = self.history.undo(&self.document);
-                before.into_iter().for_each(|document| self.edit(document));
+                if let Some(before) = self.history.undo(&self.document) {
+                    self.edit(before);
+                }
             }
             Command::Redo => {
-                let after = self.history.redo(&self.document);
-                after.into_iter().for_each(|document| self.edit(document));
+                if let Some(after) = self.history.redo(&self.document) {
+                    self.edit(after);
+                }
             }
             Command::Reset => self.open(self.document.original.clone()),
             Command::Pin(on) => {

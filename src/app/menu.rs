@@ -7,7 +7,7 @@ use eframe::egui::{
 
 use crate::app::command::Command;
 use crate::app::export::Content;
-use crate::app::state::{Plot, UiState};
+use crate::app::state::{Camera, Plot, UiState, Windows};
 
 const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
 const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
@@ -17,6 +17,7 @@ const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S)
 
 /// What can be done, as far as it depends on more than the interface's state.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools)] // One for each entry that may be grey.
 pub struct Possible {
     /// There is a step to undo.
     pub undo: bool,
@@ -108,7 +109,7 @@ fn view(ui: &mut Ui, state: &mut UiState) {
     ui.toggle_value(&mut state.map.on, "Map");
     ui.toggle_value(&mut state.playback.playing, "Mode shape moves");
     if ui.button("Show the whole robot").clicked() {
-        state.camera = Default::default();
+        state.camera = Camera::default();
     }
     ui.separator();
     if ui.button("Settings").clicked() {
@@ -193,10 +194,10 @@ pub fn keys(context: &Context, state: &mut UiState, commands: &mut Vec<Command>)
             }
         }
         if pressed(Key::Num0) {
-            state.camera = Default::default();
+            state.camera = Camera::default();
         }
         if pressed(Key::Escape) {
-            state.windows = Default::default();
+            state.windows = Windows::default();
             state.tour_taken |= state.tour.take().is_some();
         }
         if input.events.iter().any(|event| matches!(event, eframe::egui::Event::Text(text) if text == "?")) {

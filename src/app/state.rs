@@ -219,10 +219,10 @@ pub enum FrequencyUnit {
 /// How stresses are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum StressUnit {
-    /// In MPa, that is N/mm².
+    /// In `MPa`, that is N/mm².
     #[default]
     Megapascal,
-    /// In GPa.
+    /// In `GPa`.
     Gigapascal,
 }
 

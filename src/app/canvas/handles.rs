@@ -2,7 +2,7 @@
 
 use eframe::egui::emath::smart_aim::best_in_range_f64;
 use eframe::egui::{
-    CursorIcon, EventFilter, Key, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
+    CursorIcon, EventFilter, InputState, Key, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
 };
 
 use super::paint::{ARROW_GAP, arrow_tip};
@@ -161,7 +161,7 @@ pub fn camera(ui: &Ui, background: &Response, view: &View, camera: &mut Camera, 
         *camera = Camera::default();
         return;
     }
-    let touch = ui.input(|input| input.multi_touch()).filter(|touch| view.rect.contains(touch.center_pos));
+    let touch = ui.input(InputState::multi_touch).filter(|touch| view.rect.contains(touch.center_pos));
     let moved = match touch {
         Some(touch) => touch.translation_delta,
         None if background.dragged() => {

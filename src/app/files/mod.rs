@@ -9,7 +9,7 @@ mod system;
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use eframe::egui::{Align2, ColorImage, Context, Event, FontId, Id, LayerId, Order, Pos2, Rect, Vec2};
+use eframe::egui::{Align2, Color32, ColorImage, Context, Event, FontId, Id, LayerId, Order, Pos2, Rect, Vec2};
 
 use crate::app::command::Command;
 
@@ -131,7 +131,7 @@ fn png(image: &ColorImage) -> Result<Vec<u8>, String> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgba);
-    let data: Vec<u8> = image.pixels.iter().flat_map(|pixel| pixel.to_srgba_unmultiplied()).collect();
+    let data: Vec<u8> = image.pixels.iter().flat_map(Color32::to_srgba_unmultiplied).collect();
     let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&data));
     written.map_err(|error| error.to_string())?;
     Ok(bytes)
@@ -140,7 +140,6 @@ fn png(image: &ColorImage) -> Result<Vec<u8>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use eframe::egui::Color32;
 
     #[test]
     fn pictures_are_png_files_of_their_size_and_colours() {
