@@ -106,7 +106,7 @@ browserTest("a typed Young's modulus changes the answer", async ({ open }) => {
     await waitForStart(page);
     const before = await onShow(page);
     // The value field of E, in the panel on the left.
-    await page.mouse.click(258, 180);
+    await page.mouse.click(287, 250);
     await page.keyboard.press("Control+A");
     await page.keyboard.type("200");
     await page.keyboard.press("Enter");

@@ -189,8 +189,8 @@ for (const colorScheme of ["light", "dark"]) {
         await screenshot(page, `map phone ${colorScheme}`);
         await page.mouse.click(103, 475); // Plots
         await page.waitForTimeout(300);
-        for (const [tab, x] of Object.entries({ "Along the line": 72, "Directions": 153, "Campbell": 234, "Mesh": 301 })) {
-            await page.mouse.click(x, 583);
+        for (const [tab, x] of Object.entries({ "Along the line": 51, "Directions": 149, "Campbell": 230, "Mesh": 297 })) {
+            await page.mouse.click(x, 617);
             await waitForStudies(page, (now) => now[TOPICS[tab]].finished);
             await page.mouse.move(200, 700);
             await page.mouse.wheel(0, 3000);

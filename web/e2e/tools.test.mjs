@@ -20,7 +20,7 @@ async function started(page) {
 
 /** Grabs the platform, which is in the middle of the canvas at first, and lets go of it elsewhere. */
 async function dragPlatform(page, by) {
-    const [x, y] = [658, 412];
+    const [x, y] = [654, 412];
     await page.mouse.move(x, y);
     await page.mouse.down();
     for (let i = 1; i <= 5; i++) await page.mouse.move(x + (by[0] * i) / 5, y + (by[1] * i) / 5);
@@ -88,7 +88,7 @@ browserTest("scenario files are opened, dropped and saved", async ({ open }) => 
     await started(page);
     const other = { ...(await scenario(page)), name: "From a file", gravity: 3.71 };
     const file = { name: "mars.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(other)) };
-    await page.mouse.click(658, 700);
+    await page.mouse.click(654, 700);
     const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.keyboard.press("Control+o")]);
     await chooser.setFiles(file);
     await waitForScenario(page, () => window.tautline.scenario().name === "From a file");

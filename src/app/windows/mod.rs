@@ -3,7 +3,7 @@
 mod settings;
 mod shortcuts;
 
-use eframe::egui::{Align2, Context, Ui, Window};
+use eframe::egui::{Align2, Context, ScrollArea, Ui, Window};
 
 use crate::app::state::UiState;
 
@@ -22,10 +22,9 @@ fn window(context: &Context, title: &str, open: &mut bool, content: impl FnOnce(
         .open(open)
         .collapsible(false)
         .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .default_width((room.width() - 24.0).min(560.0))
-        .max_width((room.width() - 24.0).min(720.0))
-        .default_height(room.height() - 90.0)
-        .max_height(room.height() - 90.0)
-        .vscroll(true)
-        .show(context, content);
+        .resizable(false)
+        .show(context, |ui| {
+            ui.set_width((room.width() - 40.0).min(560.0));
+            ScrollArea::vertical().max_height(room.height() - 110.0).show(ui, content);
+        });
 }
