@@ -66,7 +66,7 @@ browserTest("the map comes coarse to fine and equals the command line", async ({
     const whole = Date.now() - begun;
     const frame = await frames(page);
     assert.equal(map.total, 41 * 21);
-    assert.ok(seen.size > 5, `progress in ${seen.size} steps`);
+    assert.ok(seen.size > 2, `progress in ${seen.size} steps`);
     console.log(`map 41 x 21: quarter resolution after ${coarse} ms, all after ${whole} ms, median frame ${frame.toFixed(1)} ms`);
     const { map_values: values } = await waitForStudies(page, (now) => now.map_values?.rows.length === map.total);
     assert.equal(values.current, true);
