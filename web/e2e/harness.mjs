@@ -18,7 +18,7 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
 const ROOT = fileURLToPath(new URL("../../", import.meta.url));
-const DIST = path.join(ROOT, "dist");
+export const DIST = path.join(ROOT, "dist");
 const PICTURES = path.join(ROOT, "target", "pictures");
 
 // Published pages rarely live at the root; this shows that every address is relative.
@@ -29,10 +29,14 @@ const TYPES = {
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript",
     ".json": "application/json",
+    ".png": "image/png",
     ".svg": "image/svg+xml",
     ".wasm": "application/wasm",
     ".webmanifest": "application/manifest+json",
 };
+
+/** The map's switch in a window of 1280 × 800; the tests of maps fail where it is not there. */
+export const MAP = [912, 41];
 
 const FLAGS = [
     "--no-sandbox",
@@ -56,23 +60,41 @@ function findChromium() {
     throw new Error("no Chromium on PATH: install it (on Debian: apt-get install chromium) or name it in CHROMIUM");
 }
 
-async function startServer() {
+/**
+ * Publishes a folder. Of what it returns `folder` and `refuse(request)`, which makes the server fail (or, by a promise
+ * that it does not keep, say nothing), may be changed; after `stop()` nobody listens at the address, until `start()`.
+ */
+export async function publish(folder) {
+    const site = { folder, refuse: () => false, start, stop };
     const server = createServer(async (request, response) => {
+        if (await site.refuse(request)) return response.writeHead(500).end();
         const { pathname } = new URL(request.url, "http://localhost");
         let name = pathname.startsWith(BASE) ? pathname.slice(BASE.length) : "..";
         if (name === "") name = "index.html";
-        const file = path.join(DIST, decodeURIComponent(name));
+        const file = path.join(site.folder, decodeURIComponent(name));
         const type = TYPES[path.extname(file)];
         // A type that is missing in TYPES is missing for good: the page must not depend on a guess.
-        if (!type || !file.startsWith(DIST + path.sep)) return response.writeHead(404).end();
+        if (!type || !file.startsWith(site.folder + path.sep)) return response.writeHead(404).end("not here");
         try {
-            response.writeHead(200, { "content-type": type, "cache-control": "no-cache" }).end(await readFile(file));
+            const content = await readFile(file);
+            response.writeHead(200, { "content-type": type, "cache-control": "no-cache" }).end(content);
         } catch {
-            response.writeHead(404).end();
+            response.writeHead(404).end("not here");
         }
     });
-    await new Promise((resolve, reject) => server.once("error", reject).listen(0, "127.0.0.1", resolve));
-    return server;
+    let port = 0; // any, and from then on the same
+    async function start() {
+        await new Promise((resolve, reject) => server.once("error", reject).listen(port, "127.0.0.1", resolve));
+        ({ port } = server.address());
+        site.address = `http://127.0.0.1:${port}${BASE}`;
+    }
+    async function stop() {
+        const closed = new Promise((resolve) => server.close(resolve));
+        server.closeAllConnections();
+        await closed;
+    }
+    await start();
+    return site;
 }
 
 // One server and one browser for a test file, from its first test on.
@@ -82,17 +104,16 @@ function share() {
         await readFile(path.join(DIST, "index.html")).catch(() => {
             throw new Error("dist/ has no page: run web/serve.sh --build-only first");
         });
-        const server = await startServer();
+        const site = await publish(DIST);
         const browser = await chromium.launch({ executablePath: findChromium(), args: FLAGS });
-        return { browser, server, origin: `http://127.0.0.1:${server.address().port}` };
+        return { browser, site };
     })();
     return shared;
 }
 after(async () => {
-    const { browser, server } = (await shared?.catch(() => undefined)) ?? {};
+    const { browser, site } = (await shared?.catch(() => undefined)) ?? {};
     await browser?.close();
-    server?.closeAllConnections();
-    server?.close();
+    await site?.stop();
 });
 
 /**
@@ -102,7 +123,7 @@ after(async () => {
  */
 export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
     test(name, { timeout }, async () => {
-        const { browser, origin } = await share();
+        const { browser, site } = await share();
         const pages = [];
         const contexts = [];
         const errors = [];
@@ -113,18 +134,20 @@ export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
         /**
          * Opens the page (or, by a relative `url`, another file of dist/) and waits until it has loaded.
          * `before(page)` runs ahead of the page's own scripts, `tour` is what a first visitor gets; further options go to
-         * Playwright's newContext.
+         * Playwright's newContext. The service worker is blocked, so that tests can intercept every request.
          */
         async function open(url = "", { viewport = { width: 1280, height: 800 }, colorScheme = "light", hash = "", tour = false, before, ...options } = {}) {
-            const context = await browser.newContext({ viewport, colorScheme, ...options });
+            const context = await browser.newContext({ viewport, colorScheme, serviceWorkers: "block", ...options });
             contexts.push(context);
-            const page = await context.newPage();
-            pages.push(page);
-            page.on("console", (message) => {
-                if (message.type() === "error") note(`console: ${message.text()} (${message.location().url})`);
+            context.on("page", (page) => {
+                pages.push(page);
+                page.on("console", (message) => {
+                    if (message.type() === "error") note(`console: ${message.text()} (${message.location().url})`);
+                });
+                page.on("pageerror", (error) => note(`uncaught: ${error?.stack ?? error}`));
+                page.on("requestfailed", (request) => note(`failed: ${request.url()} ${request.failure()?.errorText}`));
             });
-            page.on("pageerror", (error) => note(`uncaught: ${error?.stack ?? error}`));
-            page.on("requestfailed", (request) => note(`failed: ${request.url()} ${request.failure()?.errorText}`));
+            const page = await context.newPage();
             // Only those who ask for it are shown around.
             if (!tour) {
                 await page.addInitScript(() => {
@@ -132,14 +155,14 @@ export function browserTest(name, body, { allow = [], timeout = 60_000 } = {}) {
                 });
             }
             await before?.(page);
-            const address = new URL(url, origin + BASE);
+            const address = new URL(url, site.address);
             if (hash) address.hash = hash;
             await page.goto(address.href);
             return page;
         }
 
         try {
-            await body({ open, browser, origin: origin + BASE });
+            await body({ open, browser, origin: site.address });
             assert.deepEqual(errors, [], "the page reported errors");
         } catch (error) {
             for (const [i, page] of pages.entries()) {
