@@ -47,8 +47,15 @@
         observer.disconnect();
         loading.hidden = true;
         failure.hidden = true; // whatever it was, it did not keep the app from starting
+        keepForOffline(); // not before, or its downloads would compete with the app's
     });
     observer.observe(canvas, { attributes: true, attributeFilter: ["width", "height"] });
+
+    async function keepForOffline() {
+        try {
+            await navigator.serviceWorker.register("sw.js");
+        } catch { /* plain http, a private window, storage that is blocked: the app works, with a network */ }
+    }
 
     function hasWebGl2() {
         const gl = document.createElement("canvas").getContext("webgl2");

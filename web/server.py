@@ -15,6 +15,7 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         ".html": "text/html; charset=utf-8",
         ".js": "text/javascript",
         ".json": "application/json",
+        ".png": "image/png",
         ".svg": "image/svg+xml",
         ".wasm": "application/wasm",
         ".webmanifest": "application/manifest+json",
@@ -24,7 +25,7 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         super().__init__(*args, directory=str(DIST))
 
     def end_headers(self):
-        # The worker's files keep their names from build to build; an old one must not meet a new page.
+        # The page keeps its name from build to build; browsers ask each time whether it has changed.
         self.send_header("Cache-Control", "no-cache")
         super().end_headers()
 

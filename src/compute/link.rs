@@ -9,9 +9,7 @@ use web_sys::{ErrorEvent, MessageEvent, Worker};
 
 use super::protocol::{Incoming, Outgoing};
 
-/// Where the page finds the workers' loader, beside itself.
-const WORKER: &str = "./worker_loader.js";
-/// The element whose attribute `data-wasm` names the page's build.
+/// The element whose attribute `data-worker` tells where the workers' loader of the page's build is.
 const APP: &str = "tautline-app";
 /// What a worker says when it can take messages.
 pub const READY: &str = "ready";
@@ -43,8 +41,8 @@ impl Link {
     /// # Errors
     /// Where the browser refuses a worker.
     pub fn start(hear: impl Fn(Heard) + 'static) -> Result<Self, String> {
-        let worker =
-            Worker::new(&worker_address()).map_err(|error| format!("the browser refuses a worker: {error:?}"))?;
+        let address = worker_address().ok_or("the page does not say where its workers are")?;
+        let worker = Worker::new(&address).map_err(|error| format!("the browser refuses a worker: {error:?}"))?;
         let early = Rc::new(RefCell::new(Some(Vec::new())));
         let hear = Rc::new(hear);
         let on_message = {
@@ -94,12 +92,8 @@ impl Drop for Link {
     }
 }
 
-/// The loader's address with the page's build in it: a cached worker of an older build must not meet a newer page.
-fn worker_address() -> String {
-    let document = web_sys::window().and_then(|window| window.document());
-    let app = document.and_then(|document| document.get_element_by_id(APP));
-    let build = app.and_then(|app| app.get_attribute("data-wasm"));
-    build.map_or_else(|| WORKER.into(), |build| format!("{WORKER}?v={}", js_sys::encode_uri_component(&build)))
+fn worker_address() -> Option<String> {
+    web_sys::window()?.document()?.get_element_by_id(APP)?.get_attribute("data-worker")
 }
 
 fn post(worker: &Worker, bytes: &[u8]) {

@@ -19,23 +19,31 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 
 const ROOT = fileURLToPath(new URL("../../", import.meta.url));
+export const DIST = path.join(ROOT, "dist");
 const PICTURES = path.join(ROOT, "target", "pictures");
 
-/** What is served; published pages rarely live at the root, and this shows that every address is relative. */
+/** What the tests look at. */
 export const SITES = {
-    page: { base: "/some/where/", folder: path.join(ROOT, "dist"), build: "web/serve.sh --build-only" },
-    package: { base: "/package/", folder: path.join(ROOT, "target", "npm", "tautline"), build: "web/npm/build.sh" },
+    page: { folder: DIST, build: "web/serve.sh --build-only" },
+    package: { folder: path.join(ROOT, "target", "npm", "tautline"), build: "web/npm/build.sh" },
 };
+
+// Published pages rarely live at the root; this shows that every address is relative.
+const BASE = "/some/where/";
 
 const TYPES = {
     ".css": "text/css",
     ".html": "text/html; charset=utf-8",
     ".js": "text/javascript",
     ".json": "application/json",
+    ".png": "image/png",
     ".svg": "image/svg+xml",
     ".wasm": "application/wasm",
     ".webmanifest": "application/manifest+json",
 };
+
+/** The map's switch in a window of 1280 × 800; the tests of maps fail where it is not there. */
+export const MAP = [912, 41];
 
 const FLAGS = [
     "--no-sandbox",
@@ -59,41 +67,54 @@ function findChromium() {
     throw new Error("no Chromium on PATH: install it (on Debian: apt-get install chromium) or name it in CHROMIUM");
 }
 
-async function startServer() {
+/**
+ * Publishes a folder. Of what it returns `folder` and `refuse(request)`, which makes the server fail (or, by a promise
+ * that it does not keep, say nothing), may be changed; after `stop()` nobody listens at the address, until `start()`.
+ */
+export async function publish(folder) {
+    const site = { folder, refuse: () => false, start, stop };
     const server = createServer(async (request, response) => {
+        if (await site.refuse(request)) return response.writeHead(500).end();
         const { pathname } = new URL(request.url, "http://localhost");
-        const site = Object.values(SITES).find(({ base }) => pathname.startsWith(base));
-        if (!site) return response.writeHead(404).end();
-        const name = pathname.slice(site.base.length) || "index.html";
+        let name = pathname.startsWith(BASE) ? pathname.slice(BASE.length) : "..";
+        if (name === "") name = "index.html";
         const file = path.join(site.folder, decodeURIComponent(name));
         const type = TYPES[path.extname(file)];
         // A type that is missing in TYPES is missing for good: the page must not depend on a guess.
-        if (!type || !file.startsWith(site.folder + path.sep)) return response.writeHead(404).end();
+        if (!type || !file.startsWith(site.folder + path.sep)) return response.writeHead(404).end("not here");
         try {
-            response.writeHead(200, { "content-type": type, "cache-control": "no-cache" }).end(await readFile(file));
+            const content = await readFile(file);
+            response.writeHead(200, { "content-type": type, "cache-control": "no-cache" }).end(content);
         } catch {
-            response.writeHead(404).end();
+            response.writeHead(404).end("not here");
         }
     });
-    await new Promise((resolve, reject) => server.once("error", reject).listen(0, "127.0.0.1", resolve));
-    return server;
+    let port = 0; // any, and from then on the same
+    async function start() {
+        await new Promise((resolve, reject) => server.once("error", reject).listen(port, "127.0.0.1", resolve));
+        ({ port } = server.address());
+        site.address = `http://127.0.0.1:${port}${BASE}`;
+    }
+    async function stop() {
+        const closed = new Promise((resolve) => server.close(resolve));
+        server.closeAllConnections();
+        await closed;
+    }
+    await start();
+    return site;
 }
 
-// One server and one browser for a test file, from its first test on.
-let shared;
-function share() {
-    shared ??= (async () => {
-        const server = await startServer();
-        const browser = await chromium.launch({ executablePath: findChromium(), args: FLAGS });
-        return { browser, server, origin: `http://127.0.0.1:${server.address().port}` };
-    })();
-    return shared;
+// One browser for a test file, and one server for each site, from its first test on.
+let browsing;
+const published = new Map();
+async function share({ folder }) {
+    browsing ??= chromium.launch({ executablePath: findChromium(), args: FLAGS });
+    if (!published.has(folder)) published.set(folder, publish(folder));
+    return { browser: await browsing, address: (await published.get(folder)).address };
 }
 after(async () => {
-    const { browser, server } = (await shared?.catch(() => undefined)) ?? {};
-    await browser?.close();
-    server?.closeAllConnections();
-    server?.close();
+    await (await browsing?.catch(() => undefined))?.close();
+    for (const site of published.values()) await (await site).stop();
 });
 
 /**
@@ -104,7 +125,7 @@ after(async () => {
 export function browserTest(name, body, { allow = [], timeout = 60_000, site = SITES.page } = {}) {
     test(name, { timeout }, async () => {
         if (!existsSync(site.folder)) throw new Error(`${site.folder} is missing: run ${site.build} first`);
-        const { browser, origin } = await share();
+        const { browser, address } = await share(site);
         const pages = [];
         const contexts = [];
         const errors = [];
@@ -115,18 +136,20 @@ export function browserTest(name, body, { allow = [], timeout = 60_000, site = S
         /**
          * Opens the page (or, by a relative `url`, another file of the site) and waits until it has loaded.
          * `before(page)` runs ahead of the page's own scripts, `tour` is what a first visitor gets; further options go to
-         * Playwright's newContext.
+         * Playwright's newContext. The service worker is blocked, so that tests can intercept every request.
          */
         async function open(url = "", { viewport = { width: 1280, height: 800 }, colorScheme = "light", hash = "", tour = false, before, ...options } = {}) {
-            const context = await browser.newContext({ viewport, colorScheme, ...options });
+            const context = await browser.newContext({ viewport, colorScheme, serviceWorkers: "block", ...options });
             contexts.push(context);
-            const page = await context.newPage();
-            pages.push(page);
-            page.on("console", (message) => {
-                if (message.type() === "error") note(`console: ${message.text()} (${message.location().url})`);
+            context.on("page", (page) => {
+                pages.push(page);
+                page.on("console", (message) => {
+                    if (message.type() === "error") note(`console: ${message.text()} (${message.location().url})`);
+                });
+                page.on("pageerror", (error) => note(`uncaught: ${error?.stack ?? error}`));
+                page.on("requestfailed", (request) => note(`failed: ${request.url()} ${request.failure()?.errorText}`));
             });
-            page.on("pageerror", (error) => note(`uncaught: ${error?.stack ?? error}`));
-            page.on("requestfailed", (request) => note(`failed: ${request.url()} ${request.failure()?.errorText}`));
+            const page = await context.newPage();
             // Only those who ask for it are shown around.
             if (!tour) {
                 await page.addInitScript(() => {
@@ -134,14 +157,14 @@ export function browserTest(name, body, { allow = [], timeout = 60_000, site = S
                 });
             }
             await before?.(page);
-            const address = new URL(url, origin + site.base);
-            if (hash) address.hash = hash;
-            await page.goto(address.href);
+            const destination = new URL(url, address);
+            if (hash) destination.hash = hash;
+            await page.goto(destination.href);
             return page;
         }
 
         try {
-            await body({ open, browser, origin: origin + site.base });
+            await body({ open, browser, origin: address });
             assert.deepEqual(errors, [], "the page reported errors");
         } catch (error) {
             for (const [i, page] of pages.entries()) {

@@ -1,11 +1,10 @@
 // Studies in a browser: the map comes coarse to fine, can be cancelled, survives a lost worker and never holds the page
 // up. Times are recorded, never asserted: the machine decides them.
 import assert from "node:assert/strict";
-import { browserTest, commandLine, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
+import { browserTest, commandLine, MAP, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
 
 const PHONE = { width: 360, height: 740 };
-/** Where things are in a window of 1280 × 800; the map test fails where the switch is not there. */
-const MAP = [912, 41];
+/** Where things are in a window of 1280 × 800. */
 const STOP = [905, 65];
 const TABS = { "Along the line": [998, 309], "Directions": [1097, 309], "Campbell": [1171, 309], "Mesh": [1238, 309] };
 const TOPICS = { "Along the line": "line", "Directions": "polar", "Campbell": "campbell", "Mesh": "convergence" };
