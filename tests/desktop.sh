@@ -16,7 +16,8 @@ for pair in libX11.so.6:libx11-6 libX11-xcb.so.1:libx11-xcb1 libXcursor.so.1:lib
 done
 if [ ${#missing[@]} -gt 0 ]; then web/packages.sh "${missing[@]}" libgl1-mesa-dri; fi
 
-cargo build --bin tautline
+# As a part of a test: with it comes the program, and nothing is compiled anew that the tests have compiled.
+cargo test --no-run --test cli
 program=${CARGO_TARGET_DIR:-target}/debug/tautline
 pictures=target/pictures
 mkdir -p "$pictures"
