@@ -12,7 +12,7 @@ impl Tautline {
     pub(super) fn apply(&mut self, context: &Context, command: Command) {
         match command {
             Command::Edit(scenario) => {
-                let original = self.document.original.clone();
+                let original = self.present.document.original.clone();
                 self.edit(Document { scenario: *scenario, original });
             }
             Command::Load(scenario) => self.open(*scenario),
@@ -21,7 +21,7 @@ impl Tautline {
                 Err(reason) => self.complain(reason),
             },
             Command::Share => {
-                let link = format!("{}{}{}", address(), link::MARK, link::encode(&self.document.scenario));
+                let link = format!("{}{}{}", address(), link::MARK, link::encode(&self.present.document.scenario));
                 let text = if address().is_empty() {
                     format!(
                         "On the clipboard, to be pasted here or put behind the address of a page with Tautline: {link}"
@@ -33,20 +33,20 @@ impl Tautline {
                 self.tell(text);
             }
             Command::Undo => {
-                if let Some(before) = self.history.undo(&self.document) {
+                if let Some(before) = self.history.undo(&self.present.document) {
                     self.edit(before);
                 }
             }
             Command::Redo => {
-                if let Some(after) = self.history.redo(&self.document) {
+                if let Some(after) = self.history.redo(&self.present.document) {
                     self.edit(after);
                 }
             }
-            Command::Reset => self.open(self.document.original.clone()),
+            Command::Reset => self.open(self.present.document.original.clone()),
             Command::Pin(on) => {
-                self.pinned = None;
+                self.present.pinned = None;
                 self.pinning = on;
-                if on && self.answers.failed().is_some() {
+                if on && self.present.answers.failed().is_some() {
                     self.pinning = false;
                     self.complain("A pose without an answer cannot be pinned.".into());
                 }
@@ -65,11 +65,11 @@ impl Tautline {
                 self.submit(&Request::Shape(choice));
             }
             Command::StopStudy(topic) => {
-                let order = self.studies.stop(topic);
+                let order = self.present.studies.stop(topic);
                 self.carry_out(order);
             }
             Command::ResumeStudy(topic) => {
-                let order = self.studies.resume(topic);
+                let order = self.present.studies.resume(topic);
                 self.carry_out(order);
             }
             Command::Tell(text) => self.tell(text),
@@ -88,9 +88,9 @@ impl Tautline {
 
     /// Starts from a scenario, as a step of its own.
     fn open(&mut self, scenario: Scenario) {
-        self.history.step(&self.document);
+        self.history.step(&self.present.document);
         self.edit(Document::opened(scenario));
-        self.history.step(&self.document);
+        self.history.step(&self.present.document);
     }
 
     /// Takes a document over, where it is physical; else says why not and keeps the last good one.
@@ -100,15 +100,15 @@ impl Tautline {
             return;
         }
         self.notice = None;
-        let changed = document.scenario != self.document.scenario;
-        self.document = document;
+        let changed = document.scenario != self.present.document.scenario;
+        self.present.document = document;
         if changed {
             self.analyze();
         }
     }
 
     fn save_content(&mut self, context: &Context, content: Content) {
-        let name = file_name(self.document.scenario.name.as_deref());
+        let name = file_name(self.present.document.scenario.name.as_deref());
         let facts = self.facts();
         let (suffix, text) = match content {
             Content::Scenario => (".json", Some(facts.document.scenario.to_json() + "\n")),

@@ -12,6 +12,7 @@ mod export;
 mod fields;
 mod files;
 mod history;
+mod layout;
 mod menu;
 #[cfg(target_arch = "wasm32")]
 mod mirror;
@@ -31,16 +32,15 @@ mod windows;
 
 use std::time::Duration;
 
-use eframe::egui::{self, CentralPanel, Panel, Rect, ScrollArea, Ui};
+use eframe::egui::{self, Rect, Ui};
 
 use answers::{Answers, CriticalState};
 use command::Command;
 use files::Files;
 use history::History;
-use menu::Possible;
 use persist::Keeper;
 use pinned::Pinned;
-use state::{Document, Page, Settings, UiState};
+use state::{Document, Settings, UiState};
 use studies::{Order, Studies};
 
 use crate::compute::protocol::{Job, Request, Revision, Topic, Update, Which};
@@ -58,14 +58,10 @@ const HEARTBEAT: Duration = Duration::from_millis(100);
 
 /// The application.
 pub struct Tautline {
-    document: Document,
+    present: Present,
     history: History,
     state: UiState,
-    answers: Answers,
     compute: Option<Compute>,
-    studies: Studies,
-    /// The design to compare with.
-    pinned: Option<Pinned>,
     /// The present design is to be pinned as soon as all is known of it.
     pinning: bool,
     pool: Pool,
@@ -87,6 +83,22 @@ pub struct Tautline {
     page: page::Page,
     #[cfg(target_arch = "wasm32")]
     tone: tone::Tone,
+}
+
+/// The document and all that is known of it.
+struct Present {
+    document: Document,
+    answers: Answers,
+    studies: Studies,
+    /// The design to compare with.
+    pinned: Option<Pinned>,
+}
+
+impl Present {
+    fn facts(&self, settings: Settings) -> Facts<'_> {
+        let Self { document, answers, studies, pinned } = self;
+        Facts { document, answers, studies, pinned: pinned.as_ref(), settings }
+    }
 }
 
 /// What panels read.
@@ -182,13 +194,10 @@ impl Tautline {
         history.step(&document);
         let mut app = Self {
             keeper: Keeper::new(last),
-            document,
+            present: Present { document, answers, studies: Studies::default(), pinned: None },
             history,
             state: storage.and_then(persist::state).unwrap_or_default(),
-            answers,
             compute,
-            studies: Studies::default(),
-            pinned: None,
             pinning: false,
             pool,
             files: Files::default(),
@@ -217,12 +226,12 @@ impl Tautline {
 
     /// The scenario on show.
     pub fn scenario(&self) -> &Scenario {
-        &self.document.scenario
+        &self.present.document.scenario
     }
 
     /// The last complete analysis.
     pub fn analysis(&self) -> Option<OnShow<'_>> {
-        self.answers.complete().map(|(report, revision, current)| OnShow { report, revision, current })
+        self.present.answers.complete().map(|(report, revision, current)| OnShow { report, revision, current })
     }
 
     /// The message on the screen, such as that input was refused.
@@ -232,27 +241,27 @@ impl Tautline {
 
     /// [Re λ, Im λ] of the mode whose shape is on the canvas, in 1/s.
     pub fn mode_on_show(&self) -> Option<[f64; 2]> {
-        self.answers.shape().map(|shape| shape.eigenvalue)
+        self.present.answers.shape().map(|shape| shape.eigenvalue)
     }
 
     /// How far the last complete answer was behind the edit that it answers, in ms.
     pub fn trail_ms(&self) -> Option<f64> {
-        self.answers.trail_ms()
+        self.present.answers.trail_ms()
     }
 
     /// How far a study has come: places answered, all places, and whether it is finished.
     pub fn study(&self, topic: Topic) -> (usize, usize, bool) {
-        let progress = self.studies.progress(topic);
+        let progress = self.present.studies.progress(topic);
         (progress.done, progress.total, progress.stage == studies::Stage::Finished)
     }
 
     /// Sends the document to the engine.
     fn analyze(&mut self) {
         self.revision += 1;
-        self.answers.expect(self.revision);
+        self.present.answers.expect(self.revision);
         let job = Job {
             revision: self.revision,
-            scenario: self.document.scenario.to_json(),
+            scenario: self.present.document.scenario.to_json(),
             max_speed: DEFAULT_MAX_SPEED,
             mode: self.state.mode,
         };
@@ -261,7 +270,7 @@ impl Tautline {
 
     fn submit(&mut self, request: &Request) {
         if let Some(Err(reason)) = self.compute.as_mut().map(|compute| compute.submit(request)) {
-            self.answers.break_down(reason);
+            self.present.answers.break_down(reason);
         }
     }
 
@@ -276,26 +285,28 @@ impl Tautline {
 
     /// Asks for the studies of what is open and takes in what is known of them.
     fn study_on(&mut self) {
-        let critical = self.answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.speed);
+        let critical =
+            self.present.answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.speed);
         let plot = self.plots_open.then_some(self.state.plot);
-        let wishes = studies::wanted(&self.document.scenario, &self.state, plot, critical);
-        let orders = self.studies.want(wishes);
-        let idle = !self.studies.is_working();
+        let wishes = studies::wanted(&self.present.document.scenario, &self.state, plot, critical);
+        let orders = self.present.studies.want(wishes);
+        let idle = !self.present.studies.is_working();
         // The pool has one study of each topic: the pinned design's go first, to make room for the present one's.
-        let for_pinned = self.pinned.as_mut().map(|pinned| pinned.want(idle, &self.state, plot));
+        let for_pinned = self.present.pinned.as_mut().map(|pinned| pinned.want(idle, &self.state, plot));
         self.carry_out(for_pinned.into_iter().flatten().chain(orders));
         // Both want all of the machine; who drags must not wait. Between two poses the studies go on, so that the line
         // follows the drag.
-        self.pool.hold(matches!(self.answers.critical(), CriticalState::Recomputing { .. }));
+        self.pool.hold(matches!(self.present.answers.critical(), CriticalState::Recomputing { .. }));
         for news in self.pool.poll() {
-            if let Some(pinned) = &mut self.pinned {
+            if let Some(pinned) = &mut self.present.pinned {
                 pinned.take(news.clone());
             }
-            self.studies.take(news);
+            self.present.studies.take(news);
         }
-        if self.pinning && self.answers.all_current() {
+        if self.pinning && self.present.answers.all_current() {
             self.pinning = false;
-            self.pinned = Some(Pinned::new(self.document.scenario.clone(), self.answers.clone()));
+            self.present.pinned =
+                Some(Pinned::new(self.present.document.scenario.clone(), self.present.answers.clone()));
         }
     }
 
@@ -312,7 +323,7 @@ impl Tautline {
             let other = matches!(&reply.update, Update::Shape(shape) if shape.is_critical)
                 && self.state.mode.which != Which::Critical;
             if !other {
-                self.answers.take(reply);
+                self.present.answers.take(reply);
             }
         }
     }
@@ -321,108 +332,12 @@ impl Tautline {
         if !self.state.playback.playing {
             return;
         }
-        if let Some(shape) = self.answers.shape() {
+        if let Some(shape) = self.present.answers.shape() {
             let seconds = f64::from(context.input(|input| input.stable_dt)).min(0.1);
             let advance = canvas::phase_advance(shape, &self.state.playback, seconds);
             self.state.playback.phase = (self.state.playback.phase + advance) % std::f64::consts::TAU;
             context.request_repaint();
         }
-    }
-
-    fn notice_bar(&mut self, ui: &mut Ui) {
-        let Some(notice) = &self.notice else { return };
-        Panel::bottom("notice").show(ui, |ui| {
-            ui.horizontal_wrapped(|ui| {
-                if notice.fault {
-                    ui.colored_label(theme::warning(ui.visuals()), "▲");
-                }
-                ui.label(&notice.text);
-                if ui.small_button("Dismiss").clicked() {
-                    self.commands.push(Command::DismissNotice);
-                }
-            });
-        });
-    }
-
-    fn wide(&mut self, ui: &mut Ui) {
-        let [left, right] = self.state.widths;
-        let controls = Panel::left("controls").default_size(left).min_size(340.0).show(ui, |ui| {
-            ScrollArea::vertical().show(ui, |ui| {
-                self.controls(ui);
-            });
-        });
-        let answer = Panel::right("answer").default_size(right).min_size(280.0).show(ui, |ui| {
-            ui.add_space(6.0);
-            self.answer(ui);
-            ui.separator();
-            self.plots(ui);
-        });
-        self.state.widths = [controls, answer].map(|panel| panel.response.rect.width());
-        CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
-    }
-
-    fn narrow(&mut self, ui: &mut Ui) {
-        let height = ui.available_height();
-        Panel::top("canvas").exact_size(0.4 * height).resizable(false).frame(egui::Frame::NONE).show(ui, |ui| {
-            self.canvas(ui);
-        });
-        CentralPanel::default().show(ui, |ui| {
-            ScrollArea::vertical().show(ui, |ui| {
-                self.answer(ui);
-                ui.separator();
-                ui.horizontal(|ui| {
-                    ui.selectable_value(&mut self.state.page, Page::Controls, "Controls");
-                    ui.selectable_value(&mut self.state.page, Page::Plots, "Plots");
-                });
-                match self.state.page {
-                    Page::Controls => {
-                        self.controls(ui);
-                    }
-                    Page::Plots => self.plots(ui),
-                }
-            });
-        });
-    }
-
-    fn facts(&self) -> Facts<'_> {
-        let Self { document, answers, studies, pinned, state, .. } = self;
-        Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings }
-    }
-
-    fn answer(&mut self, ui: &mut Ui) {
-        let top = ui.cursor().min;
-        panels::answer::ui(ui, self.facts());
-        self.places.answer = Rect::from_min_max(top, ui.min_rect().max);
-    }
-
-    fn controls(&mut self, ui: &mut Ui) {
-        let Self { state, document, answers, studies, pinned, commands, .. } = self;
-        let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
-        panels::controls::ui(state, ui, facts, commands);
-        self.places.controls = ui.min_rect().intersect(ui.clip_rect());
-    }
-
-    fn plots(&mut self, ui: &mut Ui) {
-        self.plots_open = true;
-        let Self { joined, state, document, answers, studies, pinned, commands, .. } = self;
-        let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
-        self.places.plot = panels::plots::ui(joined, state, ui, facts, commands);
-    }
-
-    fn canvas(&mut self, ui: &mut Ui) {
-        let Self { layer, state, document, answers, studies, pinned, commands, .. } = self;
-        let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
-        self.places.canvas = canvas::ui(layer, state, ui, facts, commands);
-    }
-
-    fn menu(&mut self, ui: &mut Ui) {
-        let possible = Possible {
-            undo: self.history.can_undo(&self.document),
-            redo: self.history.can_redo(&self.document),
-            reset: self.document.scenario != self.document.original,
-            unpin: self.pinned.is_some() || self.pinning,
-        };
-        menu::ui(ui, &mut self.state, possible, &mut self.commands);
     }
 
     fn reduce_motion(&mut self, context: &egui::Context) {
@@ -445,7 +360,7 @@ impl Tautline {
     /// Writes down what is to survive a restart.
     fn keep(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
         if let Some(storage) = frame.storage_mut()
-            && let Some(wait) = self.keeper.keep(storage, &self.document)
+            && let Some(wait) = self.keeper.keep(storage, &self.present.document)
         {
             context.request_repaint_after(wait);
         }
@@ -461,17 +376,18 @@ impl eframe::App for Tautline {
         for command in std::mem::take(&mut self.commands) {
             self.apply(context, command);
         }
-        self.history.watch(context, &self.document);
+        self.history.watch(context, &self.present.document);
         self.take_replies();
         self.study_on();
         self.keep(context, frame);
-        if self.studies.is_working() || self.pinned.as_ref().is_some_and(Pinned::is_working) {
+        if self.present.studies.is_working() || self.present.pinned.as_ref().is_some_and(Pinned::is_working) {
             context.request_repaint_after(HEARTBEAT);
         }
         self.animate(context);
         #[cfg(target_arch = "wasm32")]
         self.tone.sound(
-            self.answers
+            self.present
+                .answers
                 .shape()
                 .filter(|_| self.state.playback.sound)
                 .map(|shape| shape.eigenvalue[1].abs() / std::f64::consts::TAU),
@@ -479,10 +395,10 @@ impl eframe::App for Tautline {
         self.apply_settings(context);
         #[cfg(target_arch = "wasm32")]
         {
-            let Self { document, answers, studies, pinned, state, page, notice, .. } = self;
-            let facts = Facts { document, answers, studies, pinned: pinned.as_ref(), settings: state.settings };
-            page.publish(facts, frame.info().cpu_usage);
-            page.tell(notice.as_ref().map(|notice| notice.text.clone()).or_else(|| tour::text(state)));
+            let facts = self.present.facts(self.state.settings);
+            self.page.publish(facts, frame.info().cpu_usage);
+            let notice = self.notice.as_ref().map(|notice| notice.text.clone());
+            self.page.tell(notice.or_else(|| tour::text(&self.state)));
         }
     }
 

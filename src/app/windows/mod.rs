@@ -18,13 +18,11 @@ pub fn ui(context: &Context, state: &mut UiState) {
 /// A window in the middle that scrolls where the screen is small.
 fn window(context: &Context, title: &str, open: &mut bool, content: impl FnOnce(&mut Ui)) {
     let room = context.content_rect();
-    Window::new(title)
-        .open(open)
-        .collapsible(false)
-        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
-        .resizable(false)
-        .show(context, |ui| {
+    Window::new(title).open(open).collapsible(false).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).resizable(false).show(
+        context,
+        |ui| {
             ui.set_width((room.width() - 40.0).min(560.0));
             ScrollArea::vertical().max_height(room.height() - 110.0).show(ui, content);
-        });
+        },
+    );
 }
