@@ -37,6 +37,7 @@ pub(super) fn read(hand: Hand, file: Arc<dyn DroppedFile>) {
     });
 }
 
+#[expect(clippy::needless_pass_by_value)] // As on the desktop, where writing goes on after the call.
 pub(super) fn save(hand: Hand, file: &str, bytes: Vec<u8>) {
     // The browser says itself where a download has gone.
     hand.saved(file, download(file, &bytes).map(|()| None).map_err(|error| format!("{error:?}")));
