@@ -27,6 +27,7 @@ pub mod convergence;
 mod grid;
 mod local;
 mod studies;
+pub mod validation;
 mod verdict;
 
 pub use grid::{Grid, Line, evenly, workspace};
