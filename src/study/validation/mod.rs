@@ -86,7 +86,7 @@ pub static CHECKS: &[Check] = &[
         run: || Ok(strings::reeled_in()),
     },
     Check {
-        name: "String reeled in slowly: growth rate −L̇/2L at one instant",
+        name: "String reeled in slowly: growth rate at one instant, −(dL/dt)/2L",
         source: "exact to first order",
         unit: "1/s",
         run: strings::frozen_growth,
