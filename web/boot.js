@@ -57,14 +57,9 @@
         } catch { /* plain http, a private window, storage that is blocked: the app works, with a network */ }
     }
 
-    function hasWebGl2() {
-        const gl = document.createElement("canvas").getContext("webgl2");
-        if (!gl) return false;
-        // A browser allows only a few contexts at a time.
-        const loses = gl.getExtension("WEBGL_lose_context");
-        if (loses) loses.loseContext();
-        return true;
-    }
+    // The app draws into this context, since a canvas has only one. Shapes come with smooth edges of their own: without
+    // a browser's smoothing and blending with the page a frame takes two thirds of the time where there is no graphics card.
+    const drawing = () => canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, stencil: false });
 
     async function start() {
         const app = document.getElementById("tautline-app").dataset;
@@ -81,7 +76,7 @@
 
     if (typeof WebAssembly !== "object") {
         fail("This browser cannot run Tautline", "It has no WebAssembly. " + reload);
-    } else if (!hasWebGl2()) {
+    } else if (!drawing()) {
         fail("This browser cannot show Tautline",
             "It offers no WebGL 2. Often it is only switched off: look for “hardware acceleration” in the browser's settings, then reload the page.");
     } else {

@@ -124,6 +124,12 @@ fn help(ui: &mut Ui, state: &mut UiState) {
     if entry(ui, "Keyboard shortcuts", None, true) {
         state.windows.shortcuts = true;
     }
+    if entry(ui, "Theory", None, true) {
+        state.windows.theory = true;
+    }
+    if entry(ui, "Validation", None, true) {
+        state.windows.validation = true;
+    }
 }
 
 /// All keys with what they do, for the window that lists them.

@@ -76,6 +76,7 @@ pub struct Tautline {
     /// Pictures made of studies, kept from frame to frame.
     layer: canvas::map::Layer,
     joined: panels::campbell::Modes,
+    windows: windows::Runtime,
     revision: Revision,
     notice: Option<Notice>,
     commands: Vec<Command>,
@@ -206,6 +207,7 @@ impl Tautline {
             places: Places::default(),
             layer: canvas::map::Layer::default(),
             joined: panels::campbell::Modes::default(),
+            windows: windows::Runtime::default(),
             revision: 0,
             notice,
             commands: Vec::new(),
@@ -411,7 +413,7 @@ impl eframe::App for Tautline {
         } else {
             self.wide(ui);
         }
-        windows::ui(ui.ctx(), &mut self.state);
+        windows::ui(ui.ctx(), &mut self.state, &mut self.windows);
         files::announce_drop(ui.ctx());
         tour::ui(ui.ctx(), &mut self.state, &self.places);
         // Commands are carried out before the next frame; without one nothing would be seen of them.

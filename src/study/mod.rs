@@ -28,6 +28,7 @@ mod grid;
 mod local;
 mod sensitivity;
 mod studies;
+pub mod validation;
 mod verdict;
 
 pub use crate::mechanics::Knob;

@@ -2,26 +2,41 @@
 
 mod settings;
 mod shortcuts;
+mod theory;
+mod validation;
 
 use eframe::egui::{Align2, Context, ScrollArea, Ui, Window};
 
 use crate::app::state::UiState;
 
+/// What windows keep from frame to frame.
+#[derive(Default)]
+pub struct Runtime {
+    theory: theory::Pictures,
+    validation: validation::Run,
+}
+
 /// Draws those that are open.
-pub fn ui(context: &Context, state: &mut UiState) {
+pub fn ui(context: &Context, state: &mut UiState, runtime: &mut Runtime) {
     let mut open = state.windows;
-    window(context, "Settings", &mut open.settings, |ui| settings::ui(ui, &mut state.settings));
-    window(context, "Keyboard shortcuts", &mut open.shortcuts, shortcuts::ui);
+    window(context, "Settings", 560.0, &mut open.settings, |ui| settings::ui(ui, &mut state.settings));
+    window(context, "Keyboard shortcuts", 560.0, &mut open.shortcuts, shortcuts::ui);
+    window(context, "Theory", theory::WIDEST, &mut open.theory, |ui| theory::ui(ui, &mut runtime.theory));
+    window(context, "Validation", 700.0, &mut open.validation, |ui| validation::ui(ui, &mut runtime.validation));
+    if !open.validation {
+        // Whoever opens it again wants to see it done again.
+        runtime.validation = validation::Run::default();
+    }
     state.windows = open;
 }
 
-/// A window in the middle that scrolls where the screen is small.
-fn window(context: &Context, title: &str, open: &mut bool, content: impl FnOnce(&mut Ui)) {
+/// A window in the middle, so many points wide where there is room, that scrolls where the screen is small.
+fn window(context: &Context, title: &str, width: f32, open: &mut bool, content: impl FnOnce(&mut Ui)) {
     let room = context.content_rect();
     Window::new(title).open(open).collapsible(false).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).resizable(false).show(
         context,
         |ui| {
-            ui.set_width((room.width() - 40.0).min(560.0));
+            ui.set_width((room.width() - 40.0).min(width));
             ScrollArea::vertical().max_height(room.height() - 110.0).show(ui, content);
         },
     );
