@@ -7,6 +7,7 @@ use tautline::compute::protocol::{Job, ModeChoice, Reply, Request, Update, Which
 use tautline::robot::Linearisation;
 use tautline::scenario::report::KnobReport;
 use tautline::scenario::{Report, Scenario, presets};
+use tautline::study::validation::CHECKS;
 
 /// The parameters of the paper's robot.
 const KNOBS: [KnobReport; 9] = [
@@ -254,4 +255,20 @@ fn messages_survive_their_way_as_bytes() {
             assert_eq!(postcard::from_bytes::<Reply>(&bytes).expect("a reply"), reply);
         }
     }
+}
+
+#[test]
+fn checks_of_known_numbers_are_done_when_all_else_is_done() {
+    let mut engine = Engine::default();
+    engine.submit(Request::Check(0));
+    engine.submit(job(3, &paper_at(2.0), CRITICAL));
+    let replies = finish(&mut engine);
+    let Some(Reply { update: Update::Checked(answer), .. }) = replies.last() else { panic!("{replies:?}") };
+    assert!(replies.iter().any(|reply| matches!(reply.update, Update::Sensitivities(_))));
+    assert_eq!((answer.index, answer.count), (0, CHECKS.len()));
+    assert_eq!((answer.name.as_str(), answer.unit.as_str()), (CHECKS[0].name, CHECKS[0].unit));
+    let [expected, got, tolerance] = answer.outcome.clone().expect("an outcome");
+    assert!((got - expected).abs() <= tolerance, "{answer:?}");
+    engine.submit(Request::Check(CHECKS.len()));
+    assert_eq!(finish(&mut engine), [], "there is no such check");
 }

@@ -74,6 +74,7 @@ impl Answers {
             Update::Curve(points) => self.curve = Some((revision, points)),
             Update::Sensitivities(found) => self.sensitivities = Some((revision, found)),
             Update::Shape(shape) => self.shape = Some((revision, *shape)),
+            Update::Checked(_) => {} // says nothing about the document
             Update::Broken(reason) => self.broken = Some(reason),
         }
     }

@@ -64,6 +64,7 @@ impl Tautline {
                 self.state.mode = choice;
                 self.submit(&Request::Shape(choice));
             }
+            Command::Check(index) => self.submit(&Request::Check(index)),
             Command::StopStudy(topic) => {
                 let order = self.present.studies.stop(topic);
                 self.carry_out(order);

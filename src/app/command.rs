@@ -31,6 +31,8 @@ pub enum Command {
     CopyModes,
     /// Show another mode's shape.
     ChooseMode(ModeChoice),
+    /// Do this check against a known number.
+    Check(usize),
     /// Stop a study; what is known of it stays.
     StopStudy(Topic),
     /// Go on with a study that was stopped.

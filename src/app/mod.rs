@@ -43,7 +43,7 @@ use pinned::Pinned;
 use state::{Document, Settings, UiState};
 use studies::{Order, Studies};
 
-use crate::compute::protocol::{Job, Request, Revision, Topic, Update, Which};
+use crate::compute::protocol::{Job, Reply, Request, Revision, Topic, Update, Which};
 use crate::compute::{Compute, Pool};
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::scenario::{Report, Scenario, presets};
@@ -315,6 +315,13 @@ impl Tautline {
     fn take_replies(&mut self) {
         let replies = self.compute.as_mut().map(Compute::poll).unwrap_or_default();
         for reply in replies {
+            let reply = match reply {
+                Reply { update: Update::Checked(answer), .. } => {
+                    self.windows.validation.take(*answer);
+                    continue;
+                }
+                reply => reply,
+            };
             // A chosen mode is followed while the robot changes: the next one wanted is the nearest to this.
             if let (Update::Shape(shape), Which::Near(_)) = (&reply.update, self.state.mode.which)
                 && !shape.is_critical
@@ -413,7 +420,7 @@ impl eframe::App for Tautline {
         } else {
             self.wide(ui);
         }
-        windows::ui(ui.ctx(), &mut self.state, &mut self.windows);
+        windows::ui(ui.ctx(), &mut self.state, &mut self.windows, &mut self.commands);
         files::announce_drop(ui.ctx());
         tour::ui(ui.ctx(), &mut self.state, &self.places);
         // Commands are carried out before the next frame; without one nothing would be seen of them.

@@ -10,14 +10,15 @@ use nalgebra::Complex;
 use web_time::Instant;
 
 use super::protocol::{
-    CriticalAnswer, DrawnShape, Failed, Job, ModeChoice, ModeRow, ModeShape, PoseAnswer, Reply, Request, Revision,
-    Update, Which,
+    CheckAnswer, CriticalAnswer, DrawnShape, Failed, Job, ModeChoice, ModeRow, ModeShape, PoseAnswer, Reply, Request,
+    Revision, Update, Which,
 };
 use crate::mechanics::CableShape;
 use crate::robot::{Motion, Robot, Vec2};
 use crate::scenario::report::{SensitivityReport, failure_sentence, sentence};
 use crate::scenario::{Report, Scenario};
 use crate::stability::{self, CriticalSearch, NotConverged, Outcome, Polarisation, Spectrum};
+use crate::study::validation::CHECKS;
 use crate::study::{Local, sensitivities};
 
 /// A slice of the search ends after this time, so that a newer request is seen soon.
@@ -51,6 +52,8 @@ pub struct Engine {
     running: Option<Pose>,
     /// When the last curve of growth rates was complete.
     last_curve: Option<Instant>,
+    /// A check to do when all else is done.
+    check: Option<usize>,
 }
 
 /// A pose under analysis.
@@ -92,11 +95,16 @@ impl Engine {
                 self.job = Some((job, Instant::now()));
             }
             Request::Shape(choice) => self.choice = Some(choice),
+            Request::Check(index) => self.check = Some(index),
         }
     }
 
     /// Does one slice of work; `None` when there is nothing left to do.
     pub fn work(&mut self) -> Option<Slice> {
+        self.analyse().or_else(|| self.check.take().map(check))
+    }
+
+    fn analyse(&mut self) -> Option<Slice> {
         if let Some((job, submitted)) = self.job.take() {
             return Some(self.begin(&job, submitted));
         }
@@ -340,6 +348,21 @@ impl Pose {
             }
         }
     }
+}
+
+/// Does a check; there is nothing to say where there is no such check.
+fn check(index: usize) -> Slice {
+    let answer = CHECKS.get(index).map(|check| CheckAnswer {
+        index,
+        count: CHECKS.len(),
+        name: check.name.into(),
+        source: check.source.into(),
+        unit: check.unit.into(),
+        outcome: (check.run)()
+            .map(|outcome| [outcome.expected, outcome.got, outcome.tolerance])
+            .map_err(|reason| sentence(&reason.to_string())),
+    });
+    answer.map(|answer| Reply { revision: 0, update: Update::Checked(Box::new(answer)) }).into_iter().collect()
 }
 
 fn axial_forces(shape: &CableShape) -> Vec<f64> {

@@ -18,6 +18,8 @@ pub enum Request {
     Analyze(Job),
     /// Give the shape of another mode of the scenario analysed last.
     Shape(ModeChoice),
+    /// Do this one of the checks against known numbers.
+    Check(usize),
 }
 
 /// A scenario to analyse.
@@ -77,6 +79,8 @@ pub enum Update {
     Sensitivities(Result<Vec<SensitivityReport>, String>),
     /// A mode's shape.
     Shape(Box<ModeShape>),
+    /// A check against a known number; it belongs to no state of the document.
+    Checked(Box<CheckAnswer>),
     /// The worker does not work, with the reason.
     Broken(String),
 }
@@ -121,6 +125,23 @@ pub struct CriticalAnswer {
     pub searched_up_to: f64,
     /// From the request to this reply, in ms.
     pub elapsed_ms: f64,
+}
+
+/// A [check](crate::study::validation::Check) and what it has come to.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CheckAnswer {
+    /// Which one, from 0.
+    pub index: usize,
+    /// How many there are.
+    pub count: usize,
+    /// What is computed.
+    pub name: String,
+    /// Where the expected value is from.
+    pub source: String,
+    /// The unit of the values; empty for plain numbers.
+    pub unit: String,
+    /// The expected value, the one computed and the tolerance; or why there is none, as a sentence.
+    pub outcome: Result<[f64; 3], String>,
 }
 
 /// One row of the table of modes.

@@ -7,22 +7,26 @@ mod validation;
 
 use eframe::egui::{Align2, Context, ScrollArea, Ui, Window};
 
+use crate::app::command::Command;
 use crate::app::state::UiState;
 
 /// What windows keep from frame to frame.
 #[derive(Default)]
 pub struct Runtime {
     theory: theory::Pictures,
-    validation: validation::Run,
+    /// The checks of known numbers.
+    pub validation: validation::Run,
 }
 
 /// Draws those that are open.
-pub fn ui(context: &Context, state: &mut UiState, runtime: &mut Runtime) {
+pub fn ui(context: &Context, state: &mut UiState, runtime: &mut Runtime, commands: &mut Vec<Command>) {
     let mut open = state.windows;
     window(context, "Settings", 560.0, &mut open.settings, |ui| settings::ui(ui, &mut state.settings));
     window(context, "Keyboard shortcuts", 560.0, &mut open.shortcuts, shortcuts::ui);
     window(context, "Theory", theory::WIDEST, &mut open.theory, |ui| theory::ui(ui, &mut runtime.theory));
-    window(context, "Validation", 700.0, &mut open.validation, |ui| validation::ui(ui, &mut runtime.validation));
+    window(context, "Validation", 700.0, &mut open.validation, |ui| {
+        validation::ui(ui, &mut runtime.validation, commands);
+    });
     if !open.validation {
         // Whoever opens it again wants to see it done again.
         runtime.validation = validation::Run::default();

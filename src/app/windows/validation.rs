@@ -1,9 +1,11 @@
 //! The checks of known numbers, computed anew where the program runs.
 
-use eframe::egui::{Button, Context, Grid, Label, RichText, Ui};
+use eframe::egui::{Button, Grid, Label, RichText, Ui};
 
+use crate::app::command::Command;
 use crate::app::theme;
-use crate::study::validation::{CHECKS, Check, Failed, Outcome};
+use crate::compute::protocol::CheckAnswer;
+use crate::study::validation::Outcome;
 
 /// On a screen with less width, in points, the numbers of a check go below its name.
 const NARROW: f32 = 760.0;
@@ -11,46 +13,58 @@ const NARROW: f32 = 760.0;
 /// How far the checks have come.
 #[derive(Debug, Default)]
 pub struct Run {
-    /// Of the first of [`CHECKS`], in their order.
-    results: Vec<Result<Outcome, Failed>>,
+    /// Of the first ones, in their order.
+    answers: Vec<CheckAnswer>,
+    /// The next one has been asked for.
+    asked: bool,
 }
 
 impl Run {
-    /// Does the next check, if one is left, and asks for a further frame.
-    ///
-    /// One in a frame: together they take long enough for the interface to halt.
-    fn step(&mut self, context: &Context) {
-        if let Some(check) = CHECKS.get(self.results.len()) {
-            self.results.push((check.run)());
-            context.request_repaint();
+    /// Takes an answer in, unless an earlier run has asked for it.
+    pub fn take(&mut self, answer: CheckAnswer) {
+        if answer.index == self.answers.len() {
+            self.answers.push(answer);
+            self.asked = false;
+        }
+    }
+
+    /// Asks for the next check, if one is left.
+    fn step(&mut self, commands: &mut Vec<Command>) {
+        if !self.asked && !self.is_done() {
+            self.asked = true;
+            commands.push(Command::Check(self.answers.len()));
         }
     }
 
     fn passed(&self) -> usize {
-        self.results.iter().filter(|result| passes(result)).count()
+        self.answers.iter().filter(|answer| passes(answer)).count()
     }
 
     fn is_done(&self) -> bool {
-        self.results.len() == CHECKS.len()
+        self.answers.first().is_some_and(|first| self.answers.len() == first.count)
     }
 
     fn summary(&self) -> String {
-        let (all, passed) = (CHECKS.len(), self.passed());
-        if self.is_done() {
-            format!("{passed} of {all} checks pass.")
-        } else {
-            format!("Computing: {} of {all} are done.", self.results.len())
-        }
+        let (done, passed) = (self.answers.len(), self.passed());
+        if self.is_done() { format!("{passed} of {done} checks pass.") } else { format!("Computing: {done} are done.") }
     }
 }
 
-fn passes(result: &Result<Outcome, Failed>) -> bool {
-    result.as_ref().is_ok_and(Outcome::passes)
+fn outcome(answer: &CheckAnswer) -> Result<Outcome, &str> {
+    answer
+        .outcome
+        .as_ref()
+        .map(|&[expected, got, tolerance]| Outcome { expected, got, tolerance })
+        .map_err(String::as_str)
 }
 
-/// Draws the checks, and does the next one.
-pub fn ui(ui: &mut Ui, run: &mut Run) {
-    run.step(ui.ctx());
+fn passes(answer: &CheckAnswer) -> bool {
+    outcome(answer).is_ok_and(|outcome| outcome.passes())
+}
+
+/// Draws the checks, and asks for the next one.
+pub fn ui(ui: &mut Ui, run: &mut Run, commands: &mut Vec<Command>) {
+    run.step(commands);
     ui.label(
         "Numbers that are known from closed forms or from programs that share nothing with this one, beside what \
          Tautline computes for them: now, on this device, anew each time this window is opened. A check passes when \
@@ -59,13 +73,12 @@ pub fn ui(ui: &mut Ui, run: &mut Run) {
     ui.add_space(4.0);
     ui.horizontal_wrapped(|ui| {
         let summary = RichText::new(run.summary()).strong();
-        if run.passed() < run.results.len() {
+        if run.passed() < run.answers.len() {
             ui.colored_label(theme::warning(ui.visuals()), "▲");
         }
         ui.label(summary);
         if ui.add_enabled(run.is_done(), Button::new("Run again")).clicked() {
             *run = Run::default();
-            ui.ctx().request_repaint();
         }
     });
     ui.separator();
@@ -78,31 +91,31 @@ fn wide(ui: &mut Ui, run: &Run) {
             ui.strong(title);
         }
         ui.end_row();
-        for (check, result) in CHECKS.iter().zip(&run.results) {
+        for answer in &run.answers {
             ui.vertical(|ui| {
                 ui.set_width(230.0);
-                name(ui, check);
+                name(ui, answer);
             });
-            if let Ok(outcome) = result {
-                let [expected, got] = values(check, outcome);
+            if let Ok(outcome) = outcome(answer) {
+                let [expected, got] = values(&answer.unit, outcome);
                 ui.label(expected);
                 ui.label(got);
                 ui.label(difference(outcome));
             } else {
                 (0..3).for_each(|_| drop(ui.label("–")));
             }
-            verdict(ui, result);
+            verdict(ui, answer);
             ui.end_row();
         }
     });
 }
 
 fn narrow(ui: &mut Ui, run: &Run) {
-    for (check, result) in CHECKS.iter().zip(&run.results) {
-        name(ui, check);
-        if let Ok(outcome) = result {
-            let [expected, got] = values(check, outcome);
-            Grid::new(check.name).num_columns(2).spacing([12.0, 2.0]).show(ui, |ui| {
+    for answer in &run.answers {
+        name(ui, answer);
+        if let Ok(outcome) = outcome(answer) {
+            let [expected, got] = values(&answer.unit, outcome);
+            Grid::new(&answer.name).num_columns(2).spacing([12.0, 2.0]).show(ui, |ui| {
                 for (title, value) in [("Expected", expected), ("Got", got), ("Error (allowed)", difference(outcome))] {
                     ui.weak(title);
                     ui.label(value);
@@ -110,34 +123,34 @@ fn narrow(ui: &mut Ui, run: &Run) {
                 }
             });
         }
-        verdict(ui, result);
+        verdict(ui, answer);
         ui.separator();
     }
 }
 
-fn name(ui: &mut Ui, check: &Check) {
-    ui.add(Label::new(check.name).wrap());
-    ui.add(Label::new(RichText::new(check.source).weak().size(11.0)).wrap());
+fn name(ui: &mut Ui, answer: &CheckAnswer) {
+    ui.add(Label::new(&answer.name).wrap());
+    ui.add(Label::new(RichText::new(&answer.source).weak().size(11.0)).wrap());
 }
 
 /// Expected and computed value, with as many digits as the tolerance gives a meaning to, and one more.
-fn values(check: &Check, outcome: &Outcome) -> [String; 2] {
+fn values(unit: &str, outcome: Outcome) -> [String; 2] {
     // Of a tolerance that is no positive number the conversion makes 0 digits.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let decimals = ((1.0 - outcome.tolerance.log10().floor()) as usize).min(13);
-    [outcome.expected, outcome.got].map(|value| format!("{value:.decimals$} {}", check.unit).trim_end().to_owned())
+    [outcome.expected, outcome.got].map(|value| format!("{value:.decimals$} {}", unit).trim_end().to_owned())
 }
 
-fn difference(outcome: &Outcome) -> String {
+fn difference(outcome: Outcome) -> String {
     let error = outcome.error();
     // Nothing to write with an exponent.
     let error = if error == 0.0 { "0".to_owned() } else { format!("{error:.1e}") };
     format!("{error} ({:.1e})", outcome.tolerance)
 }
 
-fn verdict(ui: &mut Ui, result: &Result<Outcome, Failed>) {
+fn verdict(ui: &mut Ui, answer: &CheckAnswer) {
     let (calm, warning) = (theme::calm(ui.visuals()), theme::warning(ui.visuals()));
-    match result {
+    match outcome(answer) {
         Ok(outcome) if outcome.passes() => ui.colored_label(calm, "passes"),
         Ok(_) => ui.colored_label(warning, "▲ fails"),
         Err(reason) => ui.colored_label(warning, format!("▲ fails: {reason}")),
@@ -148,28 +161,52 @@ fn verdict(ui: &mut Ui, result: &Result<Outcome, Failed>) {
 mod tests {
     use super::*;
 
-    const GOOD: Outcome = Outcome { expected: 1.0, got: 1.0004, tolerance: 1e-3 };
+    const GOOD: [f64; 3] = [1.0, 1.0004, 1e-3];
+    const COUNT: usize = 4;
+
+    fn answer(index: usize, outcome: Result<[f64; 3], String>) -> CheckAnswer {
+        let (name, source, unit) = ("a length".into(), "closed form".into(), "m".into());
+        CheckAnswer { index, count: COUNT, name, source, unit, outcome }
+    }
+
+    fn take_all(outcomes: [Result<[f64; 3], String>; COUNT]) -> Run {
+        let mut run = Run::default();
+        for (index, outcome) in outcomes.into_iter().enumerate() {
+            let mut commands = Vec::new();
+            run.step(&mut commands);
+            run.step(&mut commands);
+            assert!(matches!(commands[..], [Command::Check(asked)] if asked == index), "{commands:?}");
+            assert_eq!(run.summary(), format!("Computing: {index} are done."));
+            run.take(answer(index, outcome));
+        }
+        let mut commands = Vec::new();
+        run.step(&mut commands);
+        assert!(commands.is_empty(), "all are done: {commands:?}");
+        run
+    }
 
     #[test]
     fn the_summary_counts_what_passes_and_waits_for_all() {
-        let mut run = Run { results: vec![Ok(GOOD); CHECKS.len() - 1] };
-        assert_eq!(run.summary(), format!("Computing: {0} of {1} are done.", CHECKS.len() - 1, CHECKS.len()));
-        run.results.push(Ok(GOOD));
-        assert_eq!(run.summary(), format!("{0} of {0} checks pass.", CHECKS.len()));
-        run.results[0] = Ok(Outcome { got: 2.0, ..GOOD });
-        run.results[1] = Err(Failed::Nothing("mode"));
-        run.results[2] = Ok(Outcome { got: f64::NAN, ..GOOD });
-        assert_eq!(run.summary(), format!("{} of {} checks pass.", CHECKS.len() - 3, CHECKS.len()));
+        let good = || Ok(GOOD);
+        assert_eq!(take_all([good(), good(), good(), good()]).summary(), "4 of 4 checks pass.");
+        let run = take_all([Ok([1.0, 2.0, 1e-3]), Err("There is no mode.".into()), Ok([1.0, f64::NAN, 1e-3]), good()]);
+        assert_eq!(run.summary(), "1 of 4 checks pass.");
+    }
+
+    #[test]
+    fn answers_to_an_earlier_run_are_not_taken_in() {
+        let mut run = Run::default();
+        run.take(answer(2, Ok(GOOD)));
+        assert_eq!(run.summary(), "Computing: 0 are done.");
     }
 
     #[test]
     fn values_have_the_digits_that_count() {
-        let check = Check { name: "", source: "", unit: "m/s", run: || Ok(GOOD) };
-        assert_eq!(values(&check, &GOOD), ["1.0000 m/s", "1.0004 m/s"]);
-        let plain = Check { unit: "", ..check };
-        assert_eq!(values(&plain, &Outcome { tolerance: 0.5, ..GOOD }), ["1.00", "1.00"]);
+        let good = Outcome { expected: 1.0, got: 1.0004, tolerance: 1e-3 };
+        assert_eq!(values("m/s", good), ["1.0000 m/s", "1.0004 m/s"]);
+        assert_eq!(values("", Outcome { tolerance: 0.5, ..good }), ["1.00", "1.00"]);
         for tolerance in [f64::NAN, 0.0, 1e-300, f64::INFINITY] {
-            assert!(values(&plain, &Outcome { tolerance, ..GOOD })[0].len() < 20);
+            assert!(values("", Outcome { tolerance, ..good })[0].len() < 20);
         }
     }
 }
