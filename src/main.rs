@@ -2,7 +2,7 @@
 
 #[cfg(all(feature = "app", target_arch = "wasm32"))]
 fn main() {
-    use tautline::app::{Start, Tautline};
+    use tautline::app::{Start, Tautline, take_kept, take_link};
     use wasm_bindgen::JsCast as _;
 
     console_error_panic_hook::set_once();
@@ -16,10 +16,7 @@ fn main() {
     };
     wasm_bindgen_futures::spawn_local(async move {
         let create: eframe::AppCreator<'static> = Box::new(|context| {
-            Ok(Box::new(Tautline::new(
-                context,
-                Start { link: tautline::app::take_link(), tour: true, ..Start::default() },
-            )))
+            Ok(Box::new(Tautline::new(context, Start { scenario: take_kept(), link: take_link(), tour: true })))
         });
         if let Err(error) = eframe::WebRunner::new().start(canvas, eframe::WebOptions::default(), create).await {
             // The page hears of it and tells it.

@@ -25,6 +25,39 @@
             add(details, "pre", detail instanceof Error ? detail.stack || detail.message : String(detail));
         }
         failure.hidden = false;
+        return (name, text) => add(failure, name, text);
+    }
+
+    // What the app showed last. A program that stopped still answers, unless it stopped while it wrote this down; then
+    // there is what it kept for the next start, if the browser lets it keep anything.
+    function lastScenario() {
+        try {
+            return JSON.stringify(window.tautline.scenario(), null, 2);
+        } catch { /* it does not answer */ }
+        try {
+            return localStorage.getItem("tautline-scenario");
+        } catch { /* storage is blocked */ }
+        return null;
+    }
+
+    // A reload keeps the state of the page's entry in the history, even where nothing else may be kept.
+    function restart(scenario) {
+        history.replaceState({ scenario }, "");
+        location.reload();
+    }
+
+    function stopped(error) {
+        if (!failure.hidden) return; // one fault leads to others; the first one tells most
+        const scenario = lastScenario();
+        const add = fail("Tautline has stopped",
+            "An error in the program stopped it." + (scenario ? " Your robot is not lost." : " Please reload the page."), error);
+        if (!scenario) return;
+        const again = add("button", "Restart with this robot");
+        again.addEventListener("click", () => restart(scenario));
+        const file = add("a", "Save the robot as a file");
+        file.href = URL.createObjectURL(new Blob([scenario], { type: "application/json" }));
+        file.download = "tautline.json";
+        again.focus();
     }
 
     const reload = "Please reload the page. If that does not help, try a current version of Chrome, Edge, Firefox or Safari.";
@@ -34,7 +67,7 @@
             fail("Tautline could not start", reload, error);
         } else if (error instanceof WebAssembly.RuntimeError) {
             // Once it runs, other errors (an extension's, say) need not stop it; this one always does.
-            fail("Tautline has stopped", "An error in the program stopped it. Please reload the page.", error);
+            stopped(error);
         }
     }
     // Events without an error object are harmless notices, such as the one of ResizeObserver.
@@ -60,6 +93,18 @@
     // The app draws into this context, since a canvas has only one. Shapes come with smooth edges of their own: without
     // a browser's smoothing and blending with the page a frame takes two thirds of the time where there is no graphics card.
     const drawing = () => canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, stencil: false });
+
+    // Browsers take the graphics card away when it fails, or when too many pages want it. What was drawn with it is gone;
+    // a fresh start is the sure way to have all of it again.
+    canvas.addEventListener("webglcontextlost", (event) => {
+        event.preventDefault(); // or it would not be given back
+        if (!failure.hidden) return;
+        const scenario = lastScenario();
+        const add = fail("The picture is gone",
+            "The browser has taken the graphics away from this page. It goes on as soon as they are back; nothing is lost.");
+        add("button", "Reload now").addEventListener("click", () => restart(scenario));
+        canvas.addEventListener("webglcontextrestored", () => restart(scenario), { once: true });
+    });
 
     async function start() {
         const app = document.getElementById("tautline-app").dataset;

@@ -75,7 +75,7 @@ impl Answers {
             Update::Sensitivities(found) => self.sensitivities = Some((revision, found)),
             Update::Shape(shape) => self.shape = Some((revision, *shape)),
             Update::Checked(_) => {} // says nothing about the document
-            Update::Broken(reason) => self.broken = Some(reason),
+            Update::Broken(reason) => self.break_down(reason),
         }
     }
 
@@ -105,6 +105,17 @@ impl Answers {
     /// Marks the engine as not working.
     pub fn break_down(&mut self, reason: String) {
         self.broken = Some(reason);
+    }
+
+    /// Marks the engine as working again.
+    pub fn mend(&mut self) {
+        self.broken = None;
+    }
+
+    /// Whether there is more to come of the document as it is.
+    pub fn are_awaited(&self) -> bool {
+        let failed = self.failed.as_ref().is_some_and(|(revision, _)| *revision == self.revision);
+        self.broken.is_none() && !failed && !self.all_current()
     }
 
     /// The newest pose, unless a newer one failed.

@@ -83,7 +83,7 @@ impl Tautline {
         self.notice = Some(Notice { text, fault: false });
     }
 
-    fn complain(&mut self, text: String) {
+    pub(super) fn complain(&mut self, text: String) {
         self.notice = Some(Notice { text, fault: true });
     }
 
@@ -104,6 +104,7 @@ impl Tautline {
         let changed = document.scenario != self.present.document.scenario;
         self.present.document = document;
         if changed {
+            self.losses = 0;
             self.analyze();
         }
     }

@@ -49,19 +49,27 @@ use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::scenario::{Report, Scenario, presets};
 
 #[cfg(target_arch = "wasm32")]
-pub use page::take_link;
+pub use page::{take_kept, take_link};
 
 /// Below this width, in points, the panels go under the canvas.
 const NARROW: f32 = 760.0;
 /// While studies are at work the pool is looked after at least this often.
 const HEARTBEAT: Duration = Duration::from_millis(100);
+/// While the engine owes an answer it is looked after at least this often.
+const ENGINE_HEARTBEAT: Duration = Duration::from_millis(500);
+/// An engine that is lost so often over one state of the document is not started again before the next one.
+const MOST_LOSSES: u32 = 2;
 
 /// The application.
 pub struct Tautline {
     present: Present,
     history: History,
     state: UiState,
+    /// To wake the interface with.
+    context: egui::Context,
     compute: Option<Compute>,
+    /// How often the engine was lost over the document as it is.
+    losses: u32,
     /// The present design is to be pinned as soon as all is known of it.
     pinning: bool,
     pool: Pool,
@@ -168,15 +176,7 @@ impl Tautline {
         let storage = context.storage;
         let context = &context.egui_ctx;
         theme::install_fonts(context);
-        let (wake, wake_for_studies) = (context.clone(), context.clone());
-        let mut answers = Answers::default();
-        let compute = match Compute::start(move || wake.request_repaint()) {
-            Ok(compute) => Some(compute),
-            Err(reason) => {
-                answers.break_down(reason);
-                None
-            }
-        };
+        let wake_for_studies = context.clone();
         // Held until the first answer is there, which comes before all studies.
         let mut pool = Pool::new(move || wake_for_studies.request_repaint());
         pool.hold(true);
@@ -195,10 +195,12 @@ impl Tautline {
         history.step(&document);
         let mut app = Self {
             keeper: Keeper::new(last),
-            present: Present { document, answers, studies: Studies::default(), pinned: None },
+            present: Present { document, answers: Answers::default(), studies: Studies::default(), pinned: None },
             history,
             state: storage.and_then(persist::state).unwrap_or_default(),
-            compute,
+            context: context.clone(),
+            compute: None,
+            losses: 0,
             pinning: false,
             pool,
             files: Files::default(),
@@ -257,9 +259,19 @@ impl Tautline {
         (progress.done, progress.total, progress.stage == studies::Stage::Finished)
     }
 
-    /// Sends the document to the engine.
+    /// Sends the document to the engine, which is started where there is none.
     fn analyze(&mut self) {
         self.revision += 1;
+        if self.compute.is_none() {
+            let wake = self.context.clone();
+            match Compute::start(move || wake.request_repaint()) {
+                Ok(compute) => {
+                    self.compute = Some(compute);
+                    self.present.answers.mend();
+                }
+                Err(reason) => self.present.answers.break_down(reason),
+            }
+        }
         self.present.answers.expect(self.revision);
         let job = Job {
             revision: self.revision,
@@ -268,6 +280,19 @@ impl Tautline {
             mode: self.state.mode,
         };
         self.submit(&Request::Analyze(job));
+    }
+
+    /// The engine is gone, or does not answer: starts it again, but not for ever.
+    fn engine_lost(&mut self, reason: String) {
+        self.compute = None;
+        self.windows.validation.ask_again();
+        self.losses += 1;
+        if self.losses > MOST_LOSSES {
+            self.present.answers.break_down(reason);
+            return;
+        }
+        self.analyze();
+        self.complain(format!("The computation was lost ({reason}) and has been started again."));
     }
 
     fn submit(&mut self, request: &Request) {
@@ -318,6 +343,10 @@ impl Tautline {
             let reply = match reply {
                 Reply { update: Update::Checked(answer), .. } => {
                     self.windows.validation.take(*answer);
+                    continue;
+                }
+                Reply { update: Update::Broken(reason), .. } => {
+                    self.engine_lost(reason);
                     continue;
                 }
                 reply => reply,
@@ -373,6 +402,14 @@ impl Tautline {
         {
             context.request_repaint_after(wait);
         }
+        // Not in the middle of a drag, whose next step would take it off the screen.
+        if !context.input(|input| input.pointer.any_down()) && self.keeper.is_newly_refused() {
+            self.complain(
+                "What you do here is not kept when this is closed: its storage is full or blocked. Save the scenario as \
+                 a file, or share it as a link."
+                    .into(),
+            );
+        }
     }
 }
 
@@ -387,6 +424,9 @@ impl eframe::App for Tautline {
         }
         self.history.watch(context, &self.present.document);
         self.take_replies();
+        if self.present.answers.are_awaited() || self.windows.validation.is_waiting() {
+            context.request_repaint_after(ENGINE_HEARTBEAT);
+        }
         self.study_on();
         self.keep(context, frame);
         if self.present.studies.is_working() || self.present.pinned.as_ref().is_some_and(Pinned::is_working) {

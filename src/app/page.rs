@@ -65,6 +65,14 @@ pub fn take_link() -> Option<String> {
     Some(hash)
 }
 
+/// The scenario that the page was reloaded with after a fault. It counts once.
+pub fn take_kept() -> Option<Scenario> {
+    let history = web_sys::window()?.history().ok()?;
+    let kept = Reflect::get(&history.state().ok()?, &"scenario".into()).ok()?.as_string()?;
+    let _ = history.replace_state_with_url(&JsValue::NULL, "", None);
+    Scenario::from_json(&kept).ok().filter(|scenario| scenario.to_robot().is_ok())
+}
+
 impl Page {
     /// Sets `window.tautline`.
     pub fn new(context: &egui::Context) -> Self {

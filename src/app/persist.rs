@@ -11,8 +11,8 @@ use crate::scenario::Scenario;
 const SCENARIO: &str = "tautline-scenario";
 const ORIGINAL: &str = "tautline-original";
 const STATE: &str = "tautline-state";
-/// While it changes, the scenario is written this often.
-const PAUSE: Duration = Duration::from_millis(500);
+/// While it changes, the scenario is written this often. A browser takes it without a file.
+const PAUSE: Duration = Duration::from_millis(if cfg!(target_arch = "wasm32") { 100 } else { 500 });
 
 /// The document that was on show last, where there is one that can still be read.
 pub fn document(storage: &dyn Storage) -> Option<Document> {
@@ -38,12 +38,15 @@ pub fn keep_state(storage: &mut dyn Storage, state: &UiState) {
 pub struct Keeper {
     written: Option<Document>,
     at: Instant,
+    /// The storage has not taken it; and whether that was told.
+    refused: bool,
+    told: bool,
 }
 
 impl Keeper {
     /// Where this document is written down already.
     pub fn new(written: Option<Document>) -> Self {
-        Self { written, at: Instant::now() }
+        Self { written, at: Instant::now(), refused: false, told: false }
     }
 
     /// Writes the document down where that is due; else says when it will be.
@@ -55,11 +58,20 @@ impl Keeper {
         if since < PAUSE {
             return Some(PAUSE.saturating_sub(since));
         }
-        storage.set_string(SCENARIO, document.scenario.to_json());
+        let json = document.scenario.to_json();
+        storage.set_string(SCENARIO, json.clone());
         storage.set_string(ORIGINAL, document.original.to_json());
         storage.flush();
         (self.written, self.at) = (Some(document.clone()), Instant::now());
+        // A storage that is full or blocked says nothing.
+        self.refused = storage.get_string(SCENARIO) != Some(json);
         None
+    }
+
+    /// Whether the storage has begun to take nothing since the last call.
+    pub fn is_newly_refused(&mut self) -> bool {
+        let told = std::mem::replace(&mut self.told, self.refused);
+        self.refused && !told
     }
 }
 
@@ -100,12 +112,49 @@ mod tests {
         assert!(keeper.keep(&mut storage, &edited).is_some(), "not more often than twice a second");
         std::thread::sleep(PAUSE);
         assert_eq!(keeper.keep(&mut storage, &edited), None);
+        assert!(!keeper.is_newly_refused());
         assert_eq!(document(&storage), Some(edited));
         let mut looked = UiState { plot: Plot::Line, campbell_hz: 7.5, ..UiState::default() };
         looked.settings.frequency = FrequencyUnit::RadiansPerSecond;
         keep_state(&mut storage, &looked);
         let back = state(&storage).expect("a state");
         assert_eq!((back.plot, back.campbell_hz, back.settings), (looked.plot, 7.5, looked.settings));
+    }
+
+    /// Takes nothing while it is full.
+    struct Full(Memory, bool);
+
+    impl Storage for Full {
+        fn get_string(&self, key: &str) -> Option<String> {
+            self.0.get_string(key)
+        }
+
+        fn set_string(&mut self, key: &str, value: String) {
+            if !self.1 {
+                self.0.set_string(key, value);
+            }
+        }
+
+        fn remove_string(&mut self, key: &str) {
+            self.0.remove_string(key);
+        }
+
+        fn flush(&mut self) {}
+    }
+
+    #[test]
+    fn a_storage_that_takes_nothing_is_told_once_each_time() {
+        let mut storage = Full(Memory::default(), true);
+        let mut keeper = Keeper::new(None);
+        let mut document = Document::opened(presets::PRESETS[0].scenario());
+        for (step, (full, news)) in [(true, true), (true, false), (false, false), (true, true)].into_iter().enumerate()
+        {
+            storage.1 = full;
+            document.scenario.gravity = step as f64;
+            std::thread::sleep(PAUSE);
+            assert_eq!(keeper.keep(&mut storage, &document), None);
+            assert_eq!(keeper.is_newly_refused(), news, "step {step}");
+        }
     }
 
     /// What an earlier or later version has written, or nobody, is no reason not to start.

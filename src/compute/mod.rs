@@ -12,6 +12,8 @@ mod native;
 mod places;
 mod pool;
 pub mod protocol;
+#[cfg(any(target_arch = "wasm32", test))]
+mod watch;
 #[cfg(target_arch = "wasm32")]
 mod web;
 #[cfg(target_arch = "wasm32")]

@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::thread;
 
 use super::Engine;
-use super::protocol::{Reply, Request};
+use super::protocol::{Reply, Request, Update};
 
 /// The engine at work, seen from the interface.
 pub struct Compute {
@@ -28,14 +28,25 @@ impl Compute {
     /// Sends a request; a newer one takes the place of an older one that has not begun.
     ///
     /// # Errors
-    /// Where the engine has stopped.
+    /// None here: an engine that has stopped is told by [`Self::poll`].
     pub fn submit(&mut self, request: &Request) -> Result<(), String> {
-        self.requests.send(request.clone()).map_err(|_| "the compute thread has stopped".into())
+        let _ = self.requests.send(request.clone());
+        Ok(())
     }
 
     /// The replies since the last call.
     pub fn poll(&mut self) -> Vec<Reply> {
-        self.replies.try_iter().collect()
+        let mut replies = Vec::new();
+        loop {
+            match self.replies.try_recv() {
+                Ok(reply) => replies.push(reply),
+                Err(TryRecvError::Empty) => return replies,
+                Err(TryRecvError::Disconnected) => {
+                    replies.push(Reply { revision: 0, update: Update::Broken("its thread has stopped".into()) });
+                    return replies;
+                }
+            }
+        }
     }
 }
 

@@ -363,6 +363,8 @@ pub enum Incoming {
     Request(Request),
     /// To one of the pool's workers.
     Task(Task),
+    /// Asks for a sign of life.
+    AreYouThere,
 }
 
 /// A message from a worker.
@@ -372,6 +374,8 @@ pub enum Outgoing {
     Reply(Reply),
     /// From one of the pool's workers.
     Batch(BatchAnswer),
+    /// The sign of life.
+    Alive,
 }
 
 /// What one of the pool's workers is told.

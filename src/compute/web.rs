@@ -4,13 +4,18 @@ use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::rc::Rc;
 
+use web_time::Instant;
+
 use super::link::{Heard, Link};
 use super::protocol::{Incoming, Outgoing, Reply, Request, Update};
+use super::watch::{Sign, Watch};
 
 /// The engine at work, seen from the page.
 pub struct Compute {
     link: Link,
     replies: Rc<RefCell<VecDeque<Reply>>>,
+    watch: Rc<RefCell<Watch>>,
+    started: Instant,
 }
 
 impl Compute {
@@ -20,17 +25,19 @@ impl Compute {
     /// Where the browser refuses a worker.
     pub fn start(wake: impl Fn() + 'static) -> Result<Self, String> {
         let replies = Rc::new(RefCell::new(VecDeque::new()));
-        let inbox = replies.clone();
+        let watch = Rc::new(RefCell::new(Watch::default()));
+        let (inbox, watched) = (replies.clone(), watch.clone());
         let link = Link::start(move |heard| {
+            watched.borrow_mut().heard();
             let reply = match heard {
                 Heard::Message(Outgoing::Reply(reply)) => reply,
-                Heard::Broken(reason) => Reply { revision: 0, update: Update::Broken(reason) },
-                Heard::Ready | Heard::Message(Outgoing::Batch(_)) => return,
+                Heard::Broken(reason) => lost(reason),
+                Heard::Ready | Heard::Message(Outgoing::Batch(_) | Outgoing::Alive) => return,
             };
             inbox.borrow_mut().push_back(reply);
             wake();
         })?;
-        Ok(Self { link, replies })
+        Ok(Self { link, replies, watch, started: Instant::now() })
     }
 
     /// Sends a request; a newer one takes the place of an older one that has not begun.
@@ -41,8 +48,23 @@ impl Compute {
         self.link.send(&Incoming::Request(request.clone()))
     }
 
-    /// The replies since the last call.
+    /// The replies since the last call. Calls also keep an eye on the worker, at least once a second while something is
+    /// awaited of it.
     pub fn poll(&mut self) -> Vec<Reply> {
-        self.replies.borrow_mut().drain(..).collect()
+        let mut replies: Vec<Reply> = self.replies.borrow_mut().drain(..).collect();
+        match self.watch.borrow_mut().go_on(self.started.elapsed()) {
+            Sign::Wait => {}
+            Sign::Ask => {
+                if let Err(reason) = self.link.send(&Incoming::AreYouThere) {
+                    replies.push(lost(reason));
+                }
+            }
+            Sign::Lost => replies.push(lost("it does not answer".into())),
+        }
+        replies
     }
+}
+
+fn lost(reason: String) -> Reply {
+    Reply { revision: 0, update: Update::Broken(reason) }
 }

@@ -50,6 +50,7 @@ pub fn run_worker() -> Result<(), JsValue> {
                     let _ = again.port2().post_message(&JsValue::NULL);
                 }
             }
+            Ok(Incoming::AreYouThere) => send(&outbox, &Outgoing::Alive),
             Ok(Incoming::Task(task)) => {
                 if let Some(batch) = bench.serve(&task, Places::answer) {
                     send(&outbox, &Outgoing::Batch(batch));

@@ -118,8 +118,8 @@ after(async () => {
 });
 
 /**
- * A test with pages of its own. It fails on every console error, uncaught error and failed request of
- * its pages, except those whose text matches one of `allow` (regular expressions). When it fails, what
+ * A test with pages of its own. It fails on every console error, uncaught error, failed request and request to another
+ * server of its pages, except those whose text matches one of `allow` (regular expressions). When it fails, what
  * its pages showed is in target/pictures/.
  */
 export function browserTest(name, body, { allow = [], timeout = 60_000, site = SITES.page } = {}) {
@@ -147,6 +147,11 @@ export function browserTest(name, body, { allow = [], timeout = 60_000, site = S
                     if (message.type() === "error") note(`console: ${message.text()} (${message.location().url})`);
                 });
                 page.on("pageerror", (error) => note(`uncaught: ${error?.stack ?? error}`));
+                page.on("request", (request) => {
+                    const { protocol, origin } = new URL(request.url());
+                    const own = new URL(page.url().startsWith("http") ? page.url() : address).origin;
+                    if (protocol.startsWith("http") && origin !== own) note(`to another server: ${request.url()}`);
+                });
                 page.on("requestfailed", (request) => note(`failed: ${request.url()} ${request.failure()?.errorText}`));
             });
             const page = await context.newPage();

@@ -41,7 +41,8 @@ fn window(context: &Context, title: &str, width: f32, open: &mut bool, content: 
         context,
         |ui| {
             ui.set_width((room.width() - 40.0).min(width));
-            ScrollArea::vertical().max_height(room.height() - 110.0).show(ui, content);
+            let height = room.height() - 110.0;
+            ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, content);
         },
     );
 }

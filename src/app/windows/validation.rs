@@ -28,6 +28,16 @@ impl Run {
         }
     }
 
+    /// Whether an answer is to come.
+    pub fn is_waiting(&self) -> bool {
+        self.asked
+    }
+
+    /// What has been asked for will not be answered.
+    pub fn ask_again(&mut self) {
+        self.asked = false;
+    }
+
     /// Asks for the next check, if one is left.
     fn step(&mut self, commands: &mut Vec<Command>) {
         if !self.asked && !self.is_done() {
@@ -138,7 +148,7 @@ fn values(unit: &str, outcome: Outcome) -> [String; 2] {
     // Of a tolerance that is no positive number the conversion makes 0 digits.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
     let decimals = ((1.0 - outcome.tolerance.log10().floor()) as usize).min(13);
-    [outcome.expected, outcome.got].map(|value| format!("{value:.decimals$} {}", unit).trim_end().to_owned())
+    [outcome.expected, outcome.got].map(|value| format!("{value:.decimals$} {unit}").trim_end().to_owned())
 }
 
 fn difference(outcome: Outcome) -> String {

@@ -80,7 +80,7 @@ impl Crew {
             let event = match heard {
                 Heard::Ready => Event::Ready,
                 Heard::Message(Outgoing::Batch(batch)) => Event::Answered(batch),
-                Heard::Message(Outgoing::Reply(_)) => return,
+                Heard::Message(Outgoing::Reply(_) | Outgoing::Alive) => return,
                 Heard::Broken(reason) => Event::Lost(reason),
             };
             report.act(|core| core.hear(worker, event));
