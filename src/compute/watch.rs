@@ -4,16 +4,19 @@ use std::time::Duration;
 
 /// A worker is asked no more often than this.
 const PAUSE: Duration = Duration::from_secs(1);
-/// One that has been silent for so long is lost. Its longest step between two looks at its inbox, the eigenvalues of the
-/// largest robot, takes a fraction of this.
+/// One that has been silent for so long is lost, if its robot is small.
 const PATIENCE: Duration = Duration::from_secs(10);
+/// So much longer for the largest robot, of 8 cables with 200 elements. Its spectrum is the longest step between two
+/// looks at the inbox: 10 to 30 s on a desktop computer, growing with the square of the number of elements.
+const LARGEST_PATIENCE: Duration = Duration::from_mins(5);
+const LARGEST: f64 = 1600.0;
 /// One that has never answered may still be on its way over a slow network.
 const START_PATIENCE: Duration = Duration::from_secs(40);
 /// Time between two calls counts up to this: a page may sleep, and its worker with it.
 const LONGEST_STEP: Duration = Duration::from_secs(1);
 
 /// Watches one worker.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Watch {
     /// When it was called last.
     seen: Duration,
@@ -22,6 +25,9 @@ pub struct Watch {
     /// For how long the worker has owed an answer, where it does.
     silent: Option<Duration>,
     alive: bool,
+    /// For how long it may be silent over what it has been given last, and over what it may still be at.
+    expected: Duration,
+    patience: Duration,
 }
 
 /// What to do about the worker.
@@ -35,11 +41,24 @@ pub enum Sign {
     Lost,
 }
 
+impl Default for Watch {
+    fn default() -> Self {
+        Self { seen: Duration::ZERO, asked: None, silent: None, alive: false, expected: PATIENCE, patience: PATIENCE }
+    }
+}
+
 impl Watch {
     /// The worker has answered.
     pub fn heard(&mut self) {
         self.silent = None;
         self.alive = true;
+        self.patience = self.expected;
+    }
+
+    /// The worker is given a robot of so many elements.
+    pub fn expect(&mut self, elements: usize) {
+        self.expected = PATIENCE + LARGEST_PATIENCE.mul_f64((elements as f64 / LARGEST).min(1.0).powi(2));
+        self.patience = self.patience.max(self.expected);
     }
 
     /// It is `now`, on a clock that never goes back.
@@ -48,7 +67,7 @@ impl Watch {
         self.seen = now;
         if let Some(silent) = &mut self.silent {
             *silent += step;
-            let patience = if self.alive { PATIENCE } else { START_PATIENCE };
+            let patience = if self.alive { self.patience } else { self.patience.max(START_PATIENCE) };
             return if *silent > patience { Sign::Lost } else { Sign::Wait };
         }
         if self.asked.is_some_and(|asked| now.saturating_sub(asked) < PAUSE) {
@@ -67,11 +86,15 @@ mod tests {
 
     /// Looks ten times a second from `from` on until there is something to do; when that is, and what.
     fn look(watch: &mut Watch, from: Duration) -> (Duration, Sign) {
+        look_for(watch, from, Duration::from_secs(100))
+    }
+
+    fn look_for(watch: &mut Watch, from: Duration, longest: Duration) -> (Duration, Sign) {
         let mut now = from;
         loop {
             now += TENTH;
             match watch.go_on(now) {
-                Sign::Wait => assert!(now < from + Duration::from_secs(100), "nothing happens"),
+                Sign::Wait => assert!(now < from + longest, "nothing happens"),
                 sign => return (now, sign),
             }
         }
@@ -104,6 +127,25 @@ mod tests {
         assert_eq!(sign, Sign::Ask);
         let (at, sign) = look(&mut watch, asked);
         assert!(sign == Sign::Lost && at > asked + PATIENCE && at < asked + 2 * PATIENCE, "{sign:?} at {at:?}");
+    }
+
+    #[test]
+    fn a_large_robot_takes_longer_and_a_smaller_one_after_it_waits_for_it() {
+        let mut watch = Watch::default();
+        watch.heard();
+        watch.expect(1600);
+        assert_eq!(watch.go_on(TENTH), Sign::Ask);
+        watch.expect(40);
+        let (at, sign) = look_for(&mut watch, TENTH, Duration::from_secs(400));
+        assert!(sign == Sign::Lost && at > LARGEST_PATIENCE, "{sign:?} at {at:?}");
+
+        let mut watch = Watch::default();
+        watch.expect(1600);
+        watch.expect(40);
+        watch.heard();
+        assert_eq!(watch.go_on(TENTH), Sign::Ask);
+        let (at, sign) = look(&mut watch, TENTH);
+        assert!(sign == Sign::Lost && at < 2 * PATIENCE, "{sign:?} at {at:?}");
     }
 
     #[test]

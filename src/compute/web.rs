@@ -9,6 +9,7 @@ use web_time::Instant;
 use super::link::{Heard, Link};
 use super::protocol::{Incoming, Outgoing, Reply, Request, Update};
 use super::watch::{Sign, Watch};
+use crate::scenario::Scenario;
 
 /// The engine at work, seen from the page.
 pub struct Compute {
@@ -45,6 +46,11 @@ impl Compute {
     /// # Errors
     /// Where the request cannot be written as bytes.
     pub fn submit(&mut self, request: &Request) -> Result<(), String> {
+        if let Request::Analyze(job) = request
+            && let Ok(scenario) = Scenario::from_json(&job.scenario)
+        {
+            self.watch.borrow_mut().expect(scenario.cables.len() * scenario.elements_per_cable);
+        }
         self.link.send(&Incoming::Request(request.clone()))
     }
 

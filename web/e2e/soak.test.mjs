@@ -8,6 +8,10 @@ import { browserTest, MAP, waitForAnalysis, waitForStart } from "./harness.mjs";
 
 const MINUTES = Number(process.env.SOAK_MINUTES ?? 1);
 const SEED = Number(process.env.SOAK_SEED ?? Math.floor(Math.random() * 2 ** 31));
+/** The largest number of elements per cable. */
+const LARGEST = 16;
+/** The plots' tabs in a window of 1280 × 800. */
+const TABS = [[991, 285], [1085, 285], [1164, 285], [998, 309], [1090, 309], [1171, 309], [1238, 309], [975, 332]];
 /** Memory counts from here on: everything has been open once. */
 const WARM_UP = Math.min(60_000, (MINUTES * 60_000) / 2);
 
@@ -57,10 +61,11 @@ browserTest(`random use for ${MINUTES} min leaves no trace (seed ${SEED})`, asyn
     const original = await scenario(page);
     await page.mouse.click(...MAP);
 
-    // Anything on the canvas may be grabbed, and any button, tab and value on the right and left pressed or dragged.
+    // Anything on the canvas may be grabbed, and any button, tab and value on the right and left pressed or dragged; but
+    // for the number of elements, at the foot of the controls: memory is what the largest robot has needed.
     const somewhere = () => one([
         () => [between(380, 940), between(280, 560)],
-        () => [between(145, 330), between(120, 450)],
+        () => [between(145, 330), between(120, 430)],
         () => [between(950, 1270), between(195, 340)],
         () => [between(990, 1270), between(400, 760)],
     ])();
@@ -84,16 +89,25 @@ browserTest(`random use for ${MINUTES} min leaves no trace (seed ${SEED})`, asyn
             changed.motion.speed = between(0, 15);
             changed.cable.youngs_modulus *= 10 ** between(-1, 1);
             changed.cable.mass_per_length *= 10 ** between(-0.5, 0.5);
-            changed.elements_per_cable = Math.floor(between(2, 16));
+            changed.elements_per_cable = Math.floor(between(2, LARGEST + 1));
             await page.evaluate((json) => window.tautline.load(json), JSON.stringify(changed));
         },
     ];
+    // What needs most: every plot of the finest mesh.
+    const largest = { ...original, elements_per_cable: LARGEST, linearisation: "tangent" };
+    await page.evaluate((json) => window.tautline.load(json), JSON.stringify(largest));
+    for (const tab of TABS) {
+        await page.mouse.click(...tab);
+        await page.waitForTimeout(1000);
+    }
     const begun = Date.now();
     let [done, warm] = [0, undefined];
+    const course = [];
     while (Date.now() - begun < MINUTES * 60_000) {
         await one(actions)();
         done++;
         if (!warm && Date.now() - begun > WARM_UP) warm = await memory(page);
+        if (Date.now() - begun > 60_000 * course.length) course.push(await memory(page));
         if (await page.locator("#tautline-error").isVisible()) throw new Error(await page.locator("#tautline-error").innerText());
     }
 
@@ -103,8 +117,9 @@ browserTest(`random use for ${MINUTES} min leaves no trace (seed ${SEED})`, asyn
     await page.evaluate((json) => window.tautline.load(json), JSON.stringify(original));
     const last = await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 60_000 });
     const end = await memory(page);
-    console.log(`${done} actions; memory in MB after ${WARM_UP / 1000} s and at the end: ` +
-        [warm, end].map((sizes) => sizes.map((size) => (size / 2 ** 20).toFixed(1)).join(" ")).join(" and "));
+    const megabytes = (sizes) => sizes.map((size) => (size / 2 ** 20).toFixed(1)).join(" ");
+    console.log(`${done} actions; memory in MB (page, worker, pool) every minute and at the end: ` +
+        [...course, end].map(megabytes).join(", "));
     const fresh = await open();
     await waitForStart(fresh);
     const { revision: _, ...expected } = await waitForAnalysis(fresh, (analysis) => analysis.current, { timeout: 30_000 });
