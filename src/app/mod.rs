@@ -447,7 +447,7 @@ impl eframe::App for Tautline {
             let facts = self.present.facts(self.state.settings);
             self.page.publish(facts, frame.info().cpu_usage);
             let notice = self.notice.as_ref().map(|notice| notice.text.clone());
-            self.page.tell(notice.or_else(|| tour::text(&self.state)));
+            self.page.tell(notice.or_else(|| tour::text(&self.state)).or_else(|| self.windows.text(&self.state)));
         }
     }
 

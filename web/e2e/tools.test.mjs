@@ -7,6 +7,8 @@ const FILE_MENU = [20, 12];
 const SHARE = [186, 12];
 const PIN = [223, 12];
 const SOUND = [1158, 253];
+const HELP = [130, 12];
+const VALIDATION = [148, 108];
 /** The height of an entry of the File menu below its title. */
 const FILE_ENTRIES = { "modes": 117, "plot as PNG": 163, "canvas": 209 };
 
@@ -33,6 +35,18 @@ async function waitForScenario(page, predicate, argument) {
     await page.waitForFunction(predicate, argument, { timeout: 30_000 });
     await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
 }
+
+browserTest("known numbers are computed and compared on the page", async ({ open }) => {
+    const page = await open();
+    await started(page);
+    await page.mouse.click(...HELP);
+    await page.waitForTimeout(300);
+    await page.mouse.click(...VALIDATION);
+    await page.waitForFunction(() => /checks pass/.test(document.getElementById("tautline-notice").textContent), undefined, { timeout: 60_000 });
+    const [, passed, all] = (await notice(page)).match(/^(\d+) of (\d+) checks pass\.$/).map(Number);
+    assert.ok(passed === all && all > 20, await notice(page));
+    await screenshot(page, "validation");
+}, { timeout: 120_000 });
 
 browserTest("a drag is undone and redone by keys, and the robot survives a reload", async ({ open }) => {
     const page = await open();

@@ -18,6 +18,14 @@ pub struct Runtime {
     pub validation: validation::Run,
 }
 
+#[cfg(target_arch = "wasm32")]
+impl Runtime {
+    /// What a screen reader is told of the windows that are open.
+    pub fn text(&self, state: &UiState) -> Option<String> {
+        (state.windows.validation && self.validation.is_done()).then(|| self.validation.summary())
+    }
+}
+
 /// Draws those that are open.
 pub fn ui(context: &Context, state: &mut UiState, runtime: &mut Runtime, commands: &mut Vec<Command>) {
     let mut open = state.windows;

@@ -50,11 +50,13 @@ impl Run {
         self.answers.iter().filter(|answer| passes(answer)).count()
     }
 
-    fn is_done(&self) -> bool {
+    /// Whether all are done.
+    pub fn is_done(&self) -> bool {
         self.answers.first().is_some_and(|first| self.answers.len() == first.count)
     }
 
-    fn summary(&self) -> String {
+    /// How many pass, or how far it has come.
+    pub fn summary(&self) -> String {
         let (done, passed) = (self.answers.len(), self.passed());
         if self.is_done() { format!("{passed} of {done} checks pass.") } else { format!("Computing: {done} are done.") }
     }
