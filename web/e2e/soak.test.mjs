@@ -126,6 +126,8 @@ browserTest(`random use for ${MINUTES} min leaves no trace (seed ${SEED})`, asyn
     const { revision: __, ...got } = last;
     assert.deepEqual(got, expected);
     const sum = (sizes) => sizes.reduce((a, b) => a + b, 0);
-    // A program's memory never shrinks, so that a leak shows; 1 MB is one more step of the largest study's answers.
-    assert.ok(sum(end) <= sum(warm) + 2 ** 20, `${warm} grew to ${end}`);
+    // A program's memory never shrinks. What is rare may come late: the dense solver's matrices, which few robots need,
+    // take 4 MB, and page and pool grow by steps below 1 MB each. A leak of 1 kB with each answer would come to 20 MB
+    // within ten minutes.
+    assert.ok(sum(end) <= sum(warm) + 6 * 2 ** 20, `${warm} grew to ${end}`);
 }, { timeout: (MINUTES + 3) * 60_000 });
