@@ -148,8 +148,10 @@ export function browserTest(name, body, { allow = [], timeout = 60_000, site = S
                 });
                 page.on("pageerror", (error) => note(`uncaught: ${error?.stack ?? error}`));
                 page.on("request", (request) => {
+                    // Where to go is for the tests to say.
+                    if (request.isNavigationRequest()) return;
                     const { protocol, origin } = new URL(request.url());
-                    const own = new URL(page.url().startsWith("http") ? page.url() : address).origin;
+                    const own = new URL(page.url()).origin;
                     if (protocol.startsWith("http") && origin !== own) note(`to another server: ${request.url()}`);
                 });
                 page.on("requestfailed", (request) => note(`failed: ${request.url()} ${request.failure()?.errorText}`));
