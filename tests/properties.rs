@@ -5,51 +5,11 @@ mod common;
 use common::close;
 use common::hung::{self, Hung};
 use common::random::{config, mirrored, moving_robot, statics};
+use common::statics::check_statics;
 use proptest::prelude::*;
-use tautline::mechanics::{self, CableShape, length_rates};
-use tautline::robot::{Cable, TensionLaw, Vec2};
+use tautline::mechanics::{self, length_rates};
+use tautline::robot::{TensionLaw, Vec2};
 use tautline::{Motion, Robot};
-
-/// The tension that a cable's law prescribes.
-fn prescribed(cable: &Cable, at: Vec2) -> Option<f64> {
-    let part = |c: [f64; 3]| c[0] + c[1] * at.x + c[2] * at.y;
-    match cable.tension {
-        TensionLaw::Equilibrium => None,
-        TensionLaw::Constant(tension) => Some(tension),
-        TensionLaw::Hypot { horizontal, vertical } => Some(part(horizontal).hypot(part(vertical))),
-    }
-}
-
-/// One cable's shape satisfies the axial law and the balance of every node, and ends at the anchor.
-fn check_shape(robot: &Robot, platform: Vec2, anchor: Vec2, shape: &CableShape) {
-    let (n, law) = (robot.elements, Hung::of(robot));
-    let l = shape.length / n as f64;
-    let weight = Vec2::new(0.0, robot.weight_per_length() * l);
-    let chord = (anchor - platform).norm();
-    let size = shape.nodes.iter().map(Vec2::norm).fold(chord, f64::max);
-    assert_eq!((shape.nodes.len(), shape.forces.len()), (n + 1, n));
-    assert!(shape.length > 0.0 && shape.forces[0] == shape.t0);
-    assert_eq!(shape.nodes[0], platform);
-    // A rounding per element, each of the size of the coordinates.
-    let rounding = f64::EPSILON * size * (n + 4) as f64;
-    close((shape.nodes[n] - anchor).norm(), 0.0, 10.0 * rounding, "distance of the end from the anchor");
-    for (k, (&t, ends)) in shape.forces.iter().zip(shape.nodes.windows(2)).enumerate() {
-        let span = ends[1] - ends[0];
-        let (force, slope) = law.law(span.norm() / l);
-        // The difference of two nodes has their rounding: over l it is that of the stretch.
-        let of_stretch = 4.0 * f64::EPSILON * size / l;
-        close(force, t.norm(), slope * of_stretch, format_args!("axial law of element {k}"));
-        let across = t.normalize().perp(&span);
-        close(across, 0.0, of_stretch * l, format_args!("distance of element {k} from its force's line"));
-        let next = if k + 1 < n { shape.forces[k + 1] } else { t + weight };
-        let balance = (next - t - weight).norm();
-        close(balance, 0.0, 2.0 * f64::EPSILON * next.norm(), format_args!("balance of node {}", k + 1));
-    }
-    let (first, last) = (shape.forces[0], shape.forces[n - 1]);
-    let rounding = 4.0 * f64::EPSILON * (first.norm() + last.norm());
-    close(shape.tension_at_platform, (first - weight / 2.0).norm(), rounding, "tension at the platform");
-    close(shape.tension_at_winch, (last + weight / 2.0).norm(), rounding, "tension at the winch");
-}
 
 proptest! {
     #![proptest_config(config(400))]
@@ -59,20 +19,7 @@ proptest! {
         let found = statics(&robot, motion.position());
         prop_assume!(found.is_some());
         let found = found.unwrap();
-        let law = Hung::of(&robot);
-        let own_weight = Vec2::new(0.0, robot.platform_mass * robot.gravity);
-        let (mut sum, mut size) = (-own_weight, own_weight.norm());
-        for (i, (cable, shape)) in robot.cables.iter().zip(&found.cables).enumerate() {
-            check_shape(&robot, motion.position(), cable.anchor, shape);
-            let force = law.platform_force(shape);
-            sum += force;
-            size += force.norm();
-            if let Some(tension) = prescribed(cable, motion.position()) {
-                let rounding = 8.0 * f64::EPSILON * (tension + shape.t0.norm());
-                close(shape.tension_at_platform, tension, rounding, format_args!("tension of cable {}", i + 1));
-            }
-        }
-        close(sum.norm(), 0.0, 8.0 * f64::EPSILON * size, "balance of the platform");
+        check_statics(&robot, &found);
     }
 
     /// L' and L'' against differences of the statics of order 4, whose own error is told by halving the step: it falls

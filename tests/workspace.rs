@@ -2,115 +2,14 @@
 
 mod common;
 
-use common::close;
-use common::hung::{self, Hung};
 use common::random::{config, robot};
+use common::statics::{check_continuous, check_verdict, pose};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
 use tautline::Robot;
-use tautline::mechanics::{self, CableShape, Failure, Infeasible, LengthRates, Statics, StaticsError, length_rates};
-use tautline::robot::{TensionLaw, Vec2, paper};
-
-/// The force with which the equilibrium cables have to pull together.
-fn load<'a>(robot: &Robot, prescribed: impl Iterator<Item = &'a CableShape>) -> Vec2 {
-    let law = Hung::of(robot);
-    let own_weight = Vec2::new(0.0, robot.platform_mass * robot.gravity);
-    prescribed.fold(own_weight, |load, shape| load - law.platform_force(shape))
-}
-
-/// The tensions of the equilibrium cables if they were straight, by Cramer's rule.
-fn straight_tensions(robot: &Robot, platform: Vec2, load: Vec2) -> [f64; 2] {
-    let [a, b] = robot.pair().map(|i| (robot.cables[i].anchor - platform).normalize());
-    let determinant = a.x * b.y - a.y * b.x;
-    [(load.x * b.y - load.y * b.x) / determinant, (a.x * load.y - a.y * load.x) / determinant]
-}
-
-/// Checks a pose's verdict by the rule of docs/theory.md section 5; listing all shapes is slow, so only if `thorough`.
-fn check_verdict(robot: &Robot, platform: Vec2, found: &Result<Statics, Failure>, thorough: bool) {
-    let law = Hung::of(robot);
-    let chord = |i: usize| robot.cables[i].anchor - platform;
-    let failure = match found {
-        Ok(statics) => {
-            let load = load(robot, robot.prescribed().map(|i| &statics.cables[i]));
-            let tensions = straight_tensions(robot, platform, load);
-            assert!(tensions[0] > 0.0 && tensions[1] > 0.0, "{platform:?} has a shape, with {tensions:?}");
-            return;
-        }
-        Err(failure) => failure,
-    };
-    let StaticsError::Infeasible(reason) = failure.reason else {
-        panic!("{failure} at {platform:?} of {robot:?}");
-    };
-    let load =
-        || load(robot, robot.prescribed().map(|i| failure.cables[i].as_ref().expect("a prescribed cable's shape")));
-    match reason {
-        Infeasible::AtAnchor { cable } => close(chord(cable).norm(), 0.0, 1e-9, "distance from the anchor"),
-        Infeasible::NoTension { tension, .. } => assert!(tension <= 0.0, "{tension} N at {platform:?}"),
-        Infeasible::TooSlack { cable, tension } => {
-            assert!(robot.cables[cable].tension != TensionLaw::Equilibrium);
-            let curve = if thorough { law.curve(chord(cable)) } else { Vec::new() };
-            let least = curve.iter().map(|(_, force)| force.norm()).fold(f64::INFINITY, f64::min);
-            assert!(least > tension, "{tension} N at {platform:?}: a cable can have {least} N");
-        }
-        Infeasible::WouldPush { cable, tension } => {
-            let tensions = straight_tensions(robot, platform, load());
-            let weakest = usize::from(tensions[1] < tensions[0]);
-            assert_eq!(cable, robot.pair()[weakest], "{tensions:?} at {platform:?}");
-            assert!(tension <= 0.0, "{tensions:?} at {platform:?}");
-            let size = tensions[0].abs() + tensions[1].abs();
-            close(tension, tensions[weakest], 1e-9 * size, "the tension of the cable that would push");
-        }
-        Infeasible::OneLine { .. } => {
-            let [a, b] = robot.pair().map(|i| chord(i).normalize());
-            close(a.perp(&b), 0.0, 1e-6, "sine of the angle between the two cables");
-        }
-        Infeasible::GoesSlack { cable } => {
-            assert!(robot.pair().contains(&cable));
-            let tensions = straight_tensions(robot, platform, load());
-            assert!(tensions[0] > 0.0 && tensions[1] > 0.0, "{tensions:?} at {platform:?}");
-            if thorough {
-                let curves = robot.pair().map(|i| law.curve(chord(i)));
-                let shapes = hung::crossings(&curves, load());
-                assert!(shapes.is_empty(), "{reason} at {platform:?}, but there is {shapes:?}");
-            }
-        }
-    }
-}
-
-/// A pose that has a shape, with the length rates along `direction`.
-struct Pose {
-    position: Vec2,
-    statics: Statics,
-    rates: Vec<LengthRates>,
-}
-
-fn pose(robot: &Robot, position: Vec2, direction: Vec2) -> Option<Pose> {
-    let statics = mechanics::solve(robot, position).ok()?;
-    let rates = length_rates(robot, &statics, direction).expect("length rates");
-    Some(Pose { position, statics, rates })
-}
-
-/// Fails if lengths jump between two poses: L(b) − L(a) is the trapezium of L' but for h³/12 of L''', taken here to be
-/// less than 1/3 of L''/h. Where it is not, the middle is looked at; a jump does not vanish by that, however often.
-fn check_continuous(robot: &Robot, a: &Pose, b: &Pose, halvings: u32) {
-    let step = b.position - a.position;
-    let h = step.norm();
-    let smooth = (0..robot.cables.len()).all(|i| {
-        let change = b.statics.cables[i].length - a.statics.cables[i].length;
-        let expected = 0.5 * h * (a.rates[i].first + b.rates[i].first);
-        let bound = 0.25 * h * h * a.rates[i].second.abs().max(b.rates[i].second.abs()).max(1e-3);
-        (change - expected).abs() <= bound
-    });
-    if !smooth {
-        assert!(halvings > 0, "lengths jump between {:?} and {:?} of {robot:?}", a.position, b.position);
-        // Without a shape in the middle the two poses belong to different parts of the workspace.
-        if let Some(middle) = pose(robot, a.position + 0.5 * step, step / h) {
-            check_continuous(robot, a, &middle, halvings - 1);
-            check_continuous(robot, &middle, b, halvings - 1);
-        }
-    }
-}
+use tautline::mechanics::{self, Infeasible, StaticsError};
+use tautline::robot::{Vec2, paper};
 
 /// Checks a grid of poses from corner to corner, every `thorough`-th of the infeasible ones thoroughly; how many poses
 /// have a shape.

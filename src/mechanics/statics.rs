@@ -18,6 +18,9 @@ use crate::robot::{Robot, Vec2};
 
 /// The platform is "at" an anchor when nearer than this, in metres.
 const AT_ANCHOR: f64 = 1e-9;
+/// The equilibrium cables pull along one line when the sine of the angle between them is smaller than this: rounding of
+/// the directions, 4e-16, would leave less than four digits of their tensions.
+const ONE_LINE: f64 = 1e-12;
 /// Newton's method gives up after this many steps; it needs 5 from a straight line.
 const NEWTON_STEPS: usize = 40;
 /// The smallest step of the cables' weight, as a part of the whole.
@@ -77,7 +80,7 @@ pub enum Infeasible {
         tension: f64,
     },
     /// An equilibrium cable would have to push.
-    #[error("cable {} would have to push ({:.1} N along its line)", cable + 1, -tension)]
+    #[error("cable {} would have to push ({:.1} N along its line)", cable + 1, tension.abs())]
     WouldPush {
         /// The cable.
         cable: usize,
@@ -251,9 +254,9 @@ fn pair(robot: &Robot, position: Vec2, load: Vec2) -> Result<[(Vec2, f64); 2], S
     // Straight cables: T_a e_a + T_b e_b = load.
     let sine = e_a.perp(&e_b);
     let straight = [load.perp(&e_b) / sine, e_a.perp(&load) / sine];
-    // Collinear to rounding, or so nearly that the tensions leave every scale of the material.
+    // Nearly collinear, or so that the tensions leave every scale of the material.
     let largest = 1e9 * cable.material.axial_stiffness.max(load.norm());
-    if !straight.iter().all(|tension| tension.abs() < largest) {
+    if sine.abs() < ONE_LINE || !straight.iter().all(|tension| tension.abs() < largest) {
         return Err(Infeasible::OneLine { cables: [a, b] }.into());
     }
     let (weakest, tension) = if straight[0] < straight[1] { (a, straight[0]) } else { (b, straight[1]) };
@@ -350,11 +353,13 @@ where
         (f, j, size)
     };
     let (mut f, mut j, mut size) = evaluate(&z);
-    for _ in 0..NEWTON_STEPS {
-        if !size.is_finite() {
+    for steps in 0..2 * NEWTON_STEPS {
+        // Towards the line of both anchors it comes slowly: what is nearly there goes on to rounding.
+        if !size.is_finite() || (steps >= NEWTON_STEPS && size >= 1e-10) {
             return None;
         }
-        let step = j.lu().solve(&f)?;
+        let lu = j.lu();
+        let step = lu.solve(&f)?;
         let mut damping = 1.0;
         let (next, values) = loop {
             let next = z - step * damping;
@@ -364,7 +369,15 @@ where
             }
             damping *= 0.5;
             if damping < 1e-3 {
-                // No way down: either rounding has been reached, or there is no solution here.
+                // No way down. Where cables pull nearly along one line, large changes of their tensions hide in small
+                // residuals: there a whole step is right that makes the next one smaller. Else rounding has been reached,
+                // or there is no solution here.
+                let next = z - step;
+                let values = evaluate(&next);
+                let after = lu.solve(&values.0)?;
+                if relative(&after, &z) < 0.5 * relative(&step, &z) {
+                    break (next, values);
+                }
                 return (size < 1e-10).then_some((z, j));
             }
         };
@@ -372,6 +385,15 @@ where
         (f, j, size) = values;
     }
     (size < 1e-10).then_some((z, j))
+}
+
+/// The largest part of a cable's force or length, in `z`, that a change of them is.
+fn relative<const N: usize>(change: &SVector<f64, N>, z: &SVector<f64, N>) -> f64 {
+    let parts = (0..N).step_by(3).map(|i| {
+        let force = change[i].hypot(change[i + 1]) / z[i].hypot(z[i + 1]);
+        force.max((change[i + 2] / z[i + 2]).abs())
+    });
+    parts.fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use nalgebra::Complex;
 use super::characteristic::Characteristic;
 use super::undamped;
 use crate::mechanics::Vibration;
-use crate::stability::{Eigenproblem, NotConverged, Spectrum};
+use crate::stability::{Eigenproblem, NotConverged, Solver, Spectrum};
 
 type C64 = Complex<f64>;
 
@@ -96,7 +96,8 @@ impl Spectra {
         self.scale
     }
 
-    /// All eigenvalues at `speed` (m/s) of the same `vibration`, by the dense solver where the iteration leaves doubt.
+    /// All eigenvalues at `speed` (m/s) of the same `vibration`, by the dense solver where the iteration leaves doubt;
+    /// [`Spectrum::solver`] tells which.
     ///
     /// # Errors
     /// [`NotConverged`] where neither solver has converged.
@@ -124,7 +125,7 @@ impl Spectra {
         })?;
         let values = found.all();
         self.last = Some(found);
-        Spectrum::new(speed, values, self.multiplicity).ok()
+        Spectrum::new(speed, Solver::Structured, values, self.multiplicity).ok()
     }
 
     /// About the eigenvalues at rest, in pairs where no mode is overdamped.

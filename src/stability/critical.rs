@@ -11,7 +11,7 @@ use nalgebra::Complex;
 
 use crate::mechanics::Vibration;
 use crate::stability::crossing::{Search, first_crossing};
-use crate::stability::{Eigenproblem, NotConverged, Polarisation, Spectra, Spectrum, mode};
+use crate::stability::{Doubt, Eigenproblem, NotConverged, Polarisation, Spectra, Spectrum, mode};
 
 /// The paper's step of the speed, in m/s.
 pub const SCAN_STEP: f64 = 0.1;
@@ -19,8 +19,14 @@ pub const SCAN_STEP: f64 = 0.1;
 const REFINED_TO: f64 = 1e-9;
 /// Growth rates below this part of the largest frequency are rounding.
 const ROUNDING: f64 = 1e-10;
+/// So far from a crossing, in m/s, the growth rate must be larger than its rounding.
+const CERTAIN: f64 = 1e-3;
 /// Without damping, the fraction of a step at which the growing mode is looked at in place of v = 0.
 const NEAR_ZERO: f64 = 1e-3;
+
+/// Without damping, growth by this part of the threshold at half the speed has begun at rest. Rounding is a hundred times
+/// smaller yet.
+const FROM_REST: f64 = 0.0625;
 
 /// How stability is lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,12 +91,12 @@ pub enum Method {
 
 /// What gives the scan its eigenvalues.
 #[derive(Debug)]
-enum Solver {
+enum ScanSolver {
     Structured(Box<Spectra>),
     Dense(Box<Eigenproblem>),
 }
 
-impl Solver {
+impl ScanSolver {
     fn new(method: Method, vibration: &Vibration) -> Result<Self, NotConverged> {
         Ok(match method {
             Method::Structured => Self::Structured(Box::new(Spectra::new(vibration)?)),
@@ -119,8 +125,10 @@ impl Solver {
 pub struct CriticalSearch {
     limit: f64,
     method: Method,
+    /// Why there is a scan.
+    doubt: Option<Doubt>,
     /// The eigenvalues for the scan, once it has begun.
-    solver: Option<Solver>,
+    solver: Option<ScanSolver>,
     steps: u64,
     samples: Vec<Sample>,
 }
@@ -134,12 +142,17 @@ impl CriticalSearch {
     /// The same by `method`.
     pub fn by(method: Method, limit: f64) -> Self {
         let limit = if limit > 0.0 { limit } else { 0.0 };
-        Self { limit, method, solver: None, steps: 0, samples: Vec::new() }
+        Self { limit, method, doubt: None, solver: None, steps: 0, samples: Vec::new() }
     }
 
     /// The speeds the dense scan has looked at so far, in rising order; none where the structured search has answered.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
+    }
+
+    /// Why the structured search has left the answer to the scan; `None` where it has answered, or was not asked.
+    pub fn doubt(&self) -> Option<Doubt> {
+        self.doubt
     }
 
     /// The speed up to which the search has come, in m/s.
@@ -168,18 +181,20 @@ impl CriticalSearch {
         let solver = match &mut self.solver {
             Some(solver) => solver,
             none => {
-                if self.method == Method::Structured
-                    && let Some(outcome) = structured(vibration, self.limit)
-                {
-                    return Ok(Some(outcome));
+                if self.method == Method::Structured {
+                    match structured(vibration, self.limit) {
+                        Ok(outcome) => return Ok(Some(outcome)),
+                        Err(doubt) => self.doubt = Some(doubt),
+                    }
                 }
-                none.insert(Solver::new(self.method, vibration)?)
+                none.insert(ScanSolver::new(self.method, vibration)?)
             }
         };
         let scale = solver.scale();
         let mut spectrum = |speed: f64| solver.spectrum(vibration, speed);
         let speed = (self.steps as f64 * SCAN_STEP).min(self.limit);
-        let growth_rate = spectrum(speed)?.growth_rate();
+        let here = spectrum(speed)?;
+        let growth_rate = here.growth_rate();
         self.steps += 1;
         self.samples.push(Sample { speed, growth_rate });
         // At rest nothing grows: without damping the real parts are zero but for rounding.
@@ -188,18 +203,31 @@ impl CriticalSearch {
         }
         // What a growth rate must exceed to count as positive: zero; without damping, rounding.
         let threshold = if is_undamped(vibration) { ROUNDING * scale } else { 0.0 };
+        // Damping that rounding hides decides nothing.
+        if threshold == 0.0 && is_hidden(&here) {
+            return Err(NotConverged);
+        }
         if growth_rate > threshold {
             let before = self.samples[self.samples.len() - 2].speed;
             // Without damping nearly everything that grows at the first step has grown from rest on: look just above it.
             let near_zero = NEAR_ZERO * SCAN_STEP;
             let undamped = threshold > 0.0 && before == 0.0;
-            let critical = if undamped && spectrum(near_zero)?.growth_rate() > threshold {
-                0.0
-            } else {
-                refine(&mut spectrum, threshold, if undamped { near_zero } else { before }, speed)?
-            };
             // Undamped, every real part is zero at rest: the mode that grows is seen just above.
-            let seen_at = if critical == 0.0 { near_zero } else { critical };
+            let (critical, seen_at) = if undamped && spectrum(near_zero)?.growth_rate() > threshold {
+                (0.0, near_zero)
+            } else {
+                let crossing = refine(&mut spectrum, threshold, if undamped { near_zero } else { before }, speed)?;
+                // It must be growth that changes its sign there, and not rounding.
+                for near in [crossing - CERTAIN, crossing + CERTAIN] {
+                    if threshold == 0.0 && near > 0.0 && is_hidden(&spectrum(near)?) {
+                        return Err(NotConverged);
+                    }
+                }
+                // Where frequencies are high, growth from rest on meets the threshold late. It tells itself by what is left
+                // at half the speed: a half if it is proportional to the speed, a quarter if to its square.
+                let from_rest = threshold > 0.0 && spectrum(0.5 * crossing)?.growth_rate() > FROM_REST * threshold;
+                (if from_rest { 0.0 } else { crossing }, crossing)
+            };
             let eigenvalue = spectrum(seen_at)?.rightmost();
             let mode = mode(vibration, seen_at, eigenvalue, Polarisation::default());
             let kind = if eigenvalue.im > ROUNDING * scale { Kind::Flutter } else { Kind::Divergence };
@@ -210,22 +238,28 @@ impl CriticalSearch {
     }
 }
 
-/// The first crossing by structure, up to `limit` (m/s), without a scan; `None` where the dense scan must decide: in
-/// doubt, and without damping.
-pub fn structured(vibration: &Vibration, limit: f64) -> Option<Outcome> {
+/// The first crossing by structure, up to `limit` (m/s), without a scan.
+///
+/// # Errors
+/// [`Doubt`] where a scan must decide.
+pub fn structured(vibration: &Vibration, limit: f64) -> Result<Outcome, Doubt> {
     if is_undamped(vibration) {
-        return None;
+        return Err(Doubt::Undamped);
     }
-    match first_crossing(vibration, limit) {
-        Search::Doubt => None,
-        Search::NoneUpTo => Some(Outcome::NoneUpTo(limit)),
+    Ok(match first_crossing(vibration, limit)? {
+        Search::NoneUpTo => Outcome::NoneUpTo(limit),
         Search::Crossing { omega, speed } => {
             let eigenvalue = Complex::new(0.0, omega);
             let mode = mode(vibration, speed, eigenvalue, Polarisation::default());
             let kind = if omega > 0.0 { Kind::Flutter } else { Kind::Divergence };
-            Some(Outcome::Found(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() }))
+            Outcome::Found(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() })
         }
-    }
+    })
+}
+
+/// Whether the growth rate may be rounding.
+fn is_hidden(spectrum: &Spectrum) -> bool {
+    spectrum.growth_rate().abs() <= spectrum.rounding()
 }
 
 fn is_undamped(vibration: &Vibration) -> bool {

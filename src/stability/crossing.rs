@@ -39,20 +39,42 @@ const SAME: f64 = 1e-6;
 /// This part of a strip below the answer the unstable eigenvalues are counted: none.
 const BELOW: f64 = 1e-3;
 
-/// How the search ended.
+/// How the search ended where it could tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Search {
     /// An eigenvalue crosses to the right at ±iω (rad/s) and v (m/s), none before.
     Crossing { omega: f64, speed: f64 },
     /// No eigenvalue crosses up to the limit.
     NoneUpTo,
-    /// It cannot be told.
-    Doubt,
+}
+
+/// Why the structured search left the critical speed to a scan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Doubt {
+    /// There is no damping, so that eigenvalues are on the axis at rest.
+    Undamped,
+    /// The bounds of what can cross do not hold, or leave the range of floating point.
+    Unbounded,
+    /// Crossings are possible up to frequencies so high that the scan is hardly slower.
+    Band,
+    /// The search has taken so many evaluations that the scan is hardly slower.
+    Effort,
+    /// A cell became too small: crossings that coincide, or nearly.
+    Coincident,
+    /// The first crossing found leads to the left, so that one before it is missing.
+    Leftward,
+    /// A crossing was found below a speed that had been taken for free of them.
+    Overlooked,
+    /// What is unstable below the answer is not zero, or cannot be counted.
+    Count,
 }
 
 /// The first crossing at speeds up to `limit` (m/s), of a damped problem: one that is stable at rest.
-pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
-    let Some(bounds) = Bounds::new(vibration) else { return Search::Doubt };
+///
+/// # Errors
+/// [`Doubt`] where it cannot be told.
+pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Result<Search, Doubt> {
+    let bounds = Bounds::new(vibration).ok_or(Doubt::Unbounded)?;
     let function = Characteristic::new(vibration);
     let mut plane = Plane {
         axis: Axis::new(&function),
@@ -72,28 +94,30 @@ pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Search {
         let top = bounds.highest_frequency(to);
         let columns = (top / plane.cell[0]).ceil().max(1.0);
         if columns.is_nan() || columns > LARGEST_STRIP_EFFORT {
-            return Search::Doubt;
+            return Err(Doubt::Band);
         }
         plane.cell[1] = to - from;
         plane.follow_trend(from, to, top);
         plane.eligible = bounds.highest_frequency(from);
-        if plane.search(from, to, top).is_none() {
-            return Search::Doubt;
-        }
-
+        plane.search(from, to, top)?;
         if let Some(zero) = plane.first_from(from).copied().filter(|zero| zero.speed <= to) {
             // What crosses first crosses to the right: d Re λ/dv = Im b. Below it nothing is unstable.
             let below = (zero.speed - BELOW * STRIP).max(0.5 * zero.speed);
-            let sound = zero.slope.im > 0.0 && count(&mut plane.axis, &bounds, below) == Some(0);
-            return if sound { Search::Crossing { omega: zero.omega, speed: zero.speed } } else { Search::Doubt };
+            let rightward = zero.slope.im > 0.0;
+            if !rightward {
+                return Err(Doubt::Leftward);
+            }
+            let stable = count(&mut plane.axis, &bounds, below) == Some(0);
+            let crossing = Search::Crossing { omega: zero.omega, speed: zero.speed };
+            return if stable { Ok(crossing) } else { Err(Doubt::Count) };
         }
         let missed = |zero: &Zero| zero.speed > 0.0 && zero.speed < from;
         if plane.zeros.iter().any(missed) {
-            return Search::Doubt;
+            return Err(Doubt::Overlooked);
         }
         from = to;
     }
-    if count(&mut plane.axis, &bounds, limit) == Some(0) { Search::NoneUpTo } else { Search::Doubt }
+    if count(&mut plane.axis, &bounds, limit) == Some(0) { Ok(Search::NoneUpTo) } else { Err(Doubt::Count) }
 }
 
 /// det Q(iω, v) at one point of the plane, with the strip's trend and zeros divided out.
@@ -185,8 +209,8 @@ impl Plane<'_> {
         self.zeros.iter().filter(|zero| zero.speed >= from).min_by(|a, b| a.speed.total_cmp(&b.speed))
     }
 
-    /// Finds all zeros below the first one between two speeds; `None` in doubt.
-    fn search(&mut self, from: f64, to: f64, top: f64) -> Option<()> {
+    /// Finds all zeros below the first one between two speeds.
+    fn search(&mut self, from: f64, to: f64, top: f64) -> Result<(), Doubt> {
         let mut left = [self.corner(0.0, from), self.corner(0.0, to)];
         let mut omega = 0.0;
         while omega < top {
@@ -195,20 +219,20 @@ impl Plane<'_> {
             self.search_cell(from, &mut Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] })?;
             left = right;
         }
-        Some(())
+        Ok(())
     }
 
     /// The same in one cell of the strip.
-    fn search_cell(&mut self, from: f64, cell: &mut Cell) -> Option<()> {
+    fn search_cell(&mut self, from: f64, cell: &mut Cell) -> Result<(), Doubt> {
         loop {
             let after_the_first = self.first_from(from).is_some_and(|first| first.speed <= cell.lower[0].speed);
             if after_the_first || !self.is_eligible(cell) {
-                return Some(());
+                return Ok(());
             }
             cell.lower.iter_mut().chain(&mut cell.upper).for_each(|corner| self.divide_zeros_out(corner));
             let changes = self.changes(cell);
             if changes[0] <= 1.0 && changes[1] <= 1.0 {
-                return Some(());
+                return Ok(());
             }
             if let Some(zero) = self.zero_in(cell) {
                 self.zeros.push(zero);
@@ -216,8 +240,11 @@ impl Plane<'_> {
             }
             let size = cell.size();
             let vanishing = size[0] < SMALLEST_CELL * self.cell[0] || size[1] < SMALLEST_CELL * self.cell[1];
-            if vanishing || self.evaluations > LARGEST_EFFORT {
-                return None;
+            if vanishing {
+                return Err(Doubt::Coincident);
+            }
+            if self.evaluations > LARGEST_EFFORT {
+                return Err(Doubt::Effort);
             }
             let [mut first, mut second] = self.halves(cell, changes);
             self.search_cell(from, &mut first)?;

@@ -4,7 +4,7 @@ use nalgebra::{Complex, DMatrix, Schur};
 
 use crate::mechanics::{Hub, Vibration};
 use crate::robot::Damping;
-use crate::stability::{NotConverged, Spectrum};
+use crate::stability::{NotConverged, Solver, Spectrum};
 
 /// Iterations per eigenvalue after which the Schur form counts as not converging; it needs two or three.
 const ITERATIONS_PER_EIGENVALUE: usize = 60;
@@ -123,7 +123,8 @@ impl Eigenproblem {
             return Err(NotConverged);
         }
         let eigenvalues = eigenvalues(&companion).ok_or(NotConverged)?;
-        Spectrum::new(speed, eigenvalues.iter().map(|s| s * self.scale).collect(), self.multiplicity)
+        let eigenvalues = eigenvalues.iter().map(|s| s * self.scale).collect();
+        Spectrum::new(speed, Solver::Dense, eigenvalues, self.multiplicity)
     }
 }
 

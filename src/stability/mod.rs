@@ -18,10 +18,11 @@ pub use aberth::Spectra;
 pub use characteristic::{Characteristic, LogDeterminant};
 pub use count::unstable_eigenvalues;
 pub use critical::{Critical, CriticalSearch, Kind, Method, Outcome, SCAN_STEP, Sample, structured};
+pub use crossing::Doubt;
 pub use dense::Eigenproblem;
 pub use modes::{Mode, Polarisation, mode};
 pub use sensitivity::{Crossing, NoSensitivity, Shift};
-pub use spectrum::{ModeValue, Spectrum};
+pub use spectrum::{ModeValue, Solver, Spectrum};
 
 /// An eigenvalue iteration did not converge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]

@@ -30,6 +30,11 @@ impl Hung {
         }
     }
 
+    /// The same cable with all forces in another unit, `factor` of which are one newton: shapes do not know the difference.
+    pub fn in_units(self, factor: f64) -> Self {
+        Self { stiffness: self.stiffness * factor, weight: self.weight * factor, ..self }
+    }
+
     /// N(λ) and dN/dλ.
     pub fn law(&self, stretch: f64) -> (f64, f64) {
         match self.strain {

@@ -3,9 +3,11 @@
 
 pub mod dense;
 pub mod hung;
+pub mod judge;
 pub mod random;
 pub mod referee;
 pub mod shell;
+pub mod statics;
 
 use std::fmt::Display;
 use std::path::{Path, PathBuf};

@@ -114,3 +114,51 @@ pub fn mirrored(robot: &Robot, motion: &Motion) -> (Robot, Motion) {
     let motion = Motion::new(flip(motion.position()), flip(motion.direction()), motion.speed());
     (robot, motion.expect("a motion"))
 }
+
+/// Ten to an exponent.
+fn decades(exponents: Range<f64>) -> impl Strategy<Value = f64> {
+    exponents.prop_map(|exponent| 10.0_f64.powf(exponent))
+}
+
+/// A robot at the ends of what is legal, with a pose: EA from 10 N to 1e10 N, μ from 1e-6 to 100 kg/m, m from 1e-6 to
+/// 1e6 kg, one in three without gravity, without α, without β; prescribed tensions from a thousandth to ten thousand
+/// times the usual ones, or some times what the cable weighs.
+pub fn extreme_robot(elements: Range<usize>) -> impl Strategy<Value = (Robot, Motion)> {
+    let none_or = |other| prop_oneof![1 => Just(0.0), 2 => other];
+    let physics = (
+        prop_oneof![Just(0.0), Just(9.81), 0.0..20.0], // g
+        decades(1.0..10.0),                            // EA
+        decades(-6.0..2.0),                            // μ
+        decades(-6.0..6.0),                            // m
+        none_or(decades(-6.0..2.0).boxed()),           // α
+        none_or(decades(-7.0..0.0).boxed()),           // β
+        decades(-3.0..4.0),
+        prop::option::of(decades(-0.5..2.0)),
+    );
+    (moving_robot(elements), physics).prop_map(
+        |((robot, motion), (gravity, stiffness, mass_per_length, platform_mass, alpha, beta, factor, weights))| {
+            let mut spec = (*robot).clone();
+            spec.youngs_modulus = stiffness / spec.area;
+            spec.damping = Damping { alpha, beta };
+            (spec.gravity, spec.mass_per_length, spec.platform_mass) = (gravity, mass_per_length, platform_mass);
+            // The usual tensions are about 100 N, the usual cables 10 m.
+            let of_weight = weights.filter(|_| gravity > 0.0).map(|times| times * mass_per_length * gravity * 0.1);
+            let factor = of_weight.unwrap_or(factor);
+            for cable in &mut spec.cables {
+                cable.tension = scaled(cable.tension, factor);
+            }
+            (Robot::new(spec).expect("a robot"), motion)
+        },
+    )
+}
+
+fn scaled(law: TensionLaw, factor: f64) -> TensionLaw {
+    let all = |coefficients: [f64; 3]| coefficients.map(|c| c * factor);
+    match law {
+        TensionLaw::Equilibrium => law,
+        TensionLaw::Constant(tension) => TensionLaw::Constant(tension * factor),
+        TensionLaw::Hypot { horizontal, vertical } => {
+            TensionLaw::Hypot { horizontal: all(horizontal), vertical: all(vertical) }
+        }
+    }
+}
