@@ -61,7 +61,8 @@ impl Tally {
         for (what, count) in &self.counts {
             println!("  {count:7} {what}");
         }
-        let shown: String = self.failures.iter().take(5).map(|failure| format!("{failure}\n\n")).collect();
+        let shown: Vec<&str> = self.failures.iter().take(5).map(String::as_str).collect();
+        let shown = shown.join("\n\n");
         assert!(self.failures.is_empty(), "{} of {} wrong:\n{shown}", self.failures.len(), self.cases);
         assert!(share >= least, "only {share} of {} have statics", self.name);
         assert!(self.slowest < PATIENCE, "{} s", self.slowest);

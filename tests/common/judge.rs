@@ -391,7 +391,7 @@ impl Problem {
     fn sum(&self, z: C64) -> Option<(C64, f64)> {
         let [q, slope, size] = self.scaled(z);
         let inverse = q.try_inverse()?;
-        let sizes = |m: &DMatrix<C64>| m.map(|c| c.norm());
+        let sizes = |m: &DMatrix<C64>| m.map(C64::norm);
         let (a, b) = (sizes(&inverse), sizes(&size));
         let rounding = (&a * b * &a * sizes(&slope)).trace() * f64::EPSILON * 8.0;
         let sum = (inverse * slope).trace();
