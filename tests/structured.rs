@@ -12,7 +12,7 @@ use std::thread;
 
 use common::judge::{Drawn, Verdict, judge_critical_speed, judge_eigenvalues};
 use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2, paper_spec};
-use tautline::stability::{CriticalSearch, Doubt, NotConverged, Outcome, Solver, structured};
+use tautline::stability::{CriticalSearch, Doubt, Method, NotConverged, Outcome, Solver, structured};
 use tautline::{Local, Motion, Robot};
 
 /// The usual number of robots.
@@ -290,4 +290,23 @@ fn eigenvalues_are_as_exact_where_they_crowd() {
 #[test]
 fn eigenvalues_that_are_met_exactly_are_kept() {
     check_eigenvalues(&MET);
+}
+
+/// A scan that ends at a crossing meets growth that is nothing but rounding, on either side of zero.
+#[test]
+fn a_search_up_to_the_critical_speed_has_an_answer() {
+    let robot = Robot::new(paper_spec()).expect("physical");
+    for direction in [[1.0, 0.0], [0.0, -1.0], [0.6, 0.8]] {
+        let motion = Motion::new([0.0, 0.0], direction, 0.0).expect("a motion");
+        let local = Local::new(&robot, &motion).expect("statics");
+        let Ok(Outcome::Found(critical)) = structured(&local.vibration, LIMIT) else { panic!("no critical speed") };
+        for method in [Method::Structured, Method::Dense] {
+            for limit in [critical.speed - 1e-12, critical.speed, critical.speed + 1e-12] {
+                match CriticalSearch::by(method, limit).run(&local.vibration).expect("an answer") {
+                    Outcome::Found(found) => assert!((found.speed - critical.speed).abs() < 1e-8, "{found:?}"),
+                    Outcome::NoneUpTo(up_to) => assert_eq!(up_to.to_bits(), limit.to_bits()),
+                }
+            }
+        }
+    }
 }

@@ -203,10 +203,17 @@ impl CriticalSearch {
         }
         // What a growth rate must exceed to count as positive: zero; without damping, rounding.
         let threshold = if is_undamped(vibration) { ROUNDING * scale } else { 0.0 };
-        // Damping that rounding hides decides nothing.
-        if threshold == 0.0 && is_hidden(&here) {
-            return Err(NotConverged);
-        }
+        // Growth that rounding hides decides nothing. It is hidden at a crossing, which may be just here, and no longer
+        // beyond it.
+        let (above, growth_rate) = if threshold == 0.0 && is_hidden(&here) {
+            let beyond = spectrum(speed + CERTAIN)?;
+            if is_hidden(&beyond) {
+                return Err(NotConverged);
+            }
+            (speed + CERTAIN, beyond.growth_rate())
+        } else {
+            (speed, growth_rate)
+        };
         if growth_rate > threshold {
             let before = self.samples[self.samples.len() - 2].speed;
             // Without damping nearly everything that grows at the first step has grown from rest on: look just above it.
@@ -216,7 +223,10 @@ impl CriticalSearch {
             let (critical, seen_at) = if undamped && spectrum(near_zero)?.growth_rate() > threshold {
                 (0.0, near_zero)
             } else {
-                let crossing = refine(&mut spectrum, threshold, if undamped { near_zero } else { before }, speed)?;
+                let crossing = refine(&mut spectrum, threshold, if undamped { near_zero } else { before }, above)?;
+                if crossing > self.limit {
+                    return Ok(Some(Outcome::NoneUpTo(self.limit)));
+                }
                 // It must be growth that changes its sign there, and not rounding.
                 for near in [crossing - CERTAIN, crossing + CERTAIN] {
                     if threshold == 0.0 && near > 0.0 && is_hidden(&spectrum(near)?) {
