@@ -33,9 +33,12 @@ async function start(page) {
     await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
 }
 
-/** Run in the page: [ms after the press of the pointer, values of the map on show], whenever their number changes, until all are. */
+/**
+ * Run in the page: `window.progress` becomes [ms after the next press of the pointer, values of the map on show],
+ * whenever their number changes, until all are.
+ */
 function watchMap() {
-    return new Promise((done) => {
+    window.progress = new Promise((done) => {
         addEventListener("pointerdown", () => {
             const pressed = performance.now();
             const progress = [];
@@ -69,9 +72,9 @@ function compare(rows, scenario) {
 browserTest("the map comes coarse to fine and equals the command line", async ({ open }) => {
     const page = await open();
     await start(page);
-    const watched = page.evaluate(watchMap);
+    await page.evaluate(watchMap);
     await page.mouse.click(...MAP);
-    const progress = await watched;
+    const progress = await page.evaluate(() => window.progress);
     // Every fourth point of every fourth row.
     const [coarse] = progress.find(([, done]) => done >= 11 * 6);
     const [whole] = progress.at(-1);
