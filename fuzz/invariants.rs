@@ -15,7 +15,7 @@ use tautline::compute::protocol::{
     Task, Update, Which,
 };
 use tautline::compute::{Bench, Engine, Places};
-use tautline::robot::Faults;
+use tautline::robot::{Faults, Linearisation, Strain};
 use tautline::scenario::link::{self, LinkError};
 use tautline::scenario::{Report, Scenario, presets};
 
@@ -215,6 +215,13 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
         add("scenario", "", scenario.to_json().into_bytes());
         add("link", "", link::encode(&scenario).into_bytes());
         add("link", "-fields", fields(&scenario));
+        // What is written by other means than usual.
+        let mut odd = scenario.clone();
+        odd.name = None;
+        (odd.cable.strain, odd.linearisation) = (Strain::Engineering, Linearisation::Tangent);
+        (odd.motion.position, odd.motion.direction) = ([-0.0, f64::MIN_POSITIVE], [1e200, -1.0 / 3.0]);
+        add("scenario", "-odd", odd.to_json().into_bytes());
+        add("link", "-odd", fields(&odd));
         // Small, and of every robot another study.
         scenario.elements_per_cable = 3;
         let study = studies[i % studies.len()].clone();
