@@ -1,5 +1,6 @@
 //! `tautline analyze`: statics, spectrum and critical speed of one scenario.
 
+use std::io::Read;
 use std::path::PathBuf;
 
 use crate::cli::progress::Progress;
@@ -45,8 +46,8 @@ impl From<MethodArg> for Method {
     }
 }
 
-pub(super) fn run(args: &Args) -> Answer {
-    let scenario = read_scenario(&args.file)?;
+pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
+    let scenario = read_scenario(&args.file, input)?;
     let (robot, motion) = scenario.to_robot().map_err(|faults| vec![faults.to_string()])?;
     let limit = args.max_speed;
     let mut progress = Progress::new();

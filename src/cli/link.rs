@@ -1,5 +1,6 @@
 //! `tautline link`: a scenario as a link.
 
+use std::io::Read;
 use std::path::PathBuf;
 
 use crate::cli::{Answer, Output, read_scenario};
@@ -12,7 +13,7 @@ pub(super) struct Args {
     file: PathBuf,
 }
 
-pub(super) fn run(args: &Args) -> Answer {
-    let scenario = read_scenario(&args.file)?;
+pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
+    let scenario = read_scenario(&args.file, input)?;
     Ok(Output::Text(format!("{}{}\n", link::MARK, link::encode(&scenario))))
 }

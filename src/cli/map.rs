@@ -1,6 +1,7 @@
 //! `tautline map`: critical speed and frequency over the workspace.
 
 use std::fmt::{self, Write as _};
+use std::io::Read;
 use std::path::PathBuf;
 
 use crate::cli::rows::{COLUMNS, Form, Options, Row, Rows};
@@ -52,8 +53,8 @@ fn direction(text: &str) -> Result<Directions, String> {
     vector.map(Directions::One).ok_or_else(|| allowed.into())
 }
 
-pub(super) fn run(args: &Args) -> Answer {
-    let scenario = read_scenario(&args.file)?;
+pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
+    let scenario = read_scenario(&args.file, input)?;
     let (robot, motion) = scenario.to_robot().map_err(|faults| vec![faults.to_string()])?;
     let grid = Grid::of(&robot, args.nx as usize, args.ny as usize);
     let directions = args.direction.unwrap_or(Directions::One(motion.direction()));

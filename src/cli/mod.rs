@@ -10,7 +10,7 @@ mod sweep;
 mod text;
 
 use std::ffi::OsString;
-use std::io::{self, Read as _, Write as _};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -74,33 +74,45 @@ enum Output {
 /// A verb's output, or one line per fault.
 type Answer = Result<Output, Vec<String>>;
 
-/// Does what the program's arguments ask for, but for opening the application.
-pub fn run() -> Start {
-    run_with(std::env::args_os())
+/// Where the program reads and writes: the process's own streams, or a test's.
+pub struct Streams<'a> {
+    /// What a scenario file called `-` is read from.
+    pub input: &'a mut dyn Read,
+    /// Results.
+    pub output: &'a mut dyn Write,
+    /// One line per fault.
+    pub errors: &'a mut dyn Write,
 }
 
-/// The same for these arguments, the program's name first.
-fn run_with(arguments: impl Iterator<Item = OsString>) -> Start {
+/// Does what the program's arguments ask for, but for opening the application.
+pub fn run() -> Start {
+    let streams = Streams { input: &mut io::stdin(), output: &mut io::stdout(), errors: &mut io::stderr() };
+    run_with(std::env::args_os(), streams)
+}
+
+/// The same for these arguments, the program's name first, and with these streams.
+pub fn run_with(arguments: impl IntoIterator<Item = OsString>, streams: Streams) -> Start {
+    let Streams { input, output, errors } = streams;
     let answer = match Args::try_parse_from(arguments) {
         Err(error) if error.use_stderr() => Err(vec![one_line(&error)]),
         Err(help) => Ok(Output::Text(help.to_string())),
-        Ok(Args { verb: Some(Verb::Analyze(args)), .. }) => analyze::run(&args),
-        Ok(Args { verb: Some(Verb::Map(args)), .. }) => map::run(&args),
-        Ok(Args { verb: Some(Verb::Sweep(args)), .. }) => sweep::run(&args),
+        Ok(Args { verb: Some(Verb::Analyze(args)), .. }) => analyze::run(&args, input),
+        Ok(Args { verb: Some(Verb::Map(args)), .. }) => map::run(&args, input),
+        Ok(Args { verb: Some(Verb::Sweep(args)), .. }) => sweep::run(&args, input),
         Ok(Args { verb: Some(Verb::Example(args)), .. }) => example::run(&args),
-        Ok(Args { verb: Some(Verb::Link(args)), .. }) => link::run(&args),
+        Ok(Args { verb: Some(Verb::Link(args)), .. }) => link::run(&args, input),
         Ok(Args { verb: None, file: None }) => return Start::App { scenario: None },
-        Ok(Args { verb: None, file: Some(file) }) => match read_scenario(&file) {
+        Ok(Args { verb: None, file: Some(file) }) => match read_scenario(&file, input) {
             Ok(scenario) => return Start::App { scenario: Some(Box::new(scenario)) },
             Err(faults) => Err(faults),
         },
     };
     Start::Done(match answer {
-        Ok(Output::Text(text)) => write_out(&text).err().unwrap_or(ExitCode::SUCCESS),
-        Ok(Output::Rows(rows)) => rows::print(rows),
+        Ok(Output::Text(text)) => write_out(output, errors, &text).err().unwrap_or(ExitCode::SUCCESS),
+        Ok(Output::Rows(rows)) => rows::print(rows, output, errors),
         Err(faults) => {
             for fault in &faults {
-                complain(fault);
+                complain(errors, fault);
             }
             ExitCode::from(BAD_INPUT)
         }
@@ -109,27 +121,26 @@ fn run_with(arguments: impl Iterator<Item = OsString>) -> Start {
 
 /// Says on standard error what is wrong with the input, and gives the exit code for it.
 pub fn fail(fault: &str) -> ExitCode {
-    complain(&format!("tautline: {fault}"));
+    complain(&mut io::stderr(), &format!("tautline: {fault}"));
     ExitCode::from(BAD_INPUT)
 }
 
 /// A line on standard error; where that is closed there is nobody to tell.
-fn complain(line: &str) {
-    let _ = writeln!(io::stderr(), "{line}");
+fn complain(errors: &mut dyn Write, line: &str) {
+    let _ = writeln!(errors, "{line}");
 }
 
-/// Writes to standard output.
+/// Writes to standard output, and to `errors` why that is not possible.
 ///
 /// # Errors
 /// The exit code to end with, where nothing more can be written. Standard output closed by its reader is no fault: it
 /// has seen enough.
-fn write_out(text: &str) -> Result<(), ExitCode> {
-    let mut out = io::stdout();
-    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| {
+fn write_out(output: &mut dyn Write, errors: &mut dyn Write, text: &str) -> Result<(), ExitCode> {
+    output.write_all(text.as_bytes()).and_then(|()| output.flush()).map_err(|error| {
         if error.kind() == io::ErrorKind::BrokenPipe {
             return ExitCode::SUCCESS;
         }
-        complain(&format!("standard output: {error}"));
+        complain(errors, &format!("standard output: {error}"));
         ExitCode::from(NOT_WRITTEN)
     })
 }
@@ -149,14 +160,14 @@ fn one_line(error: &clap::Error) -> String {
     format!("tautline: {what}; tautline --help says what is possible")
 }
 
-/// The scenario in a file, or on standard input where `path` is `-`; faults with the file's name in front.
-fn read_scenario(path: &Path) -> Result<Scenario, Vec<String>> {
+/// The scenario in a file, or in the standard `input` where `path` is `-`; faults with the file's name in front.
+fn read_scenario(path: &Path, input: &mut dyn Read) -> Result<Scenario, Vec<String>> {
     let standard_input = path.as_os_str() == "-";
     let name = if standard_input { "standard input".into() } else { path.display().to_string() };
     let fault = |what: &dyn std::fmt::Display| format!("{name}: {what}");
     let bytes = if standard_input {
         let mut bytes = Vec::new();
-        io::stdin().read_to_end(&mut bytes).map(|_| bytes)
+        input.read_to_end(&mut bytes).map(|_| bytes)
     } else {
         std::fs::read(path)
     };

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::{self, IsTerminal as _};
+use std::io::{self, IsTerminal as _, Write};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -100,7 +100,7 @@ pub(super) struct Rows {
 /// Prints rows of CSV as soon as all before them are there, or all rows as text; gives the program's exit code.
 ///
 /// After Ctrl-C no more is printed: what has been printed ends with a whole row. A second one ends at once.
-pub(super) fn print(rows: Rows) -> ExitCode {
+pub(super) fn print(rows: Rows, output: &mut dyn Write, errors: &mut dyn Write) -> ExitCode {
     let Rows { count, row, form, threads } = rows;
     let interrupted = watch_for_interrupts();
     let answers = compute(count, row, threads);
@@ -115,7 +115,7 @@ pub(super) fn print(rows: Rows) -> ExitCode {
     let mut kept = Vec::new();
     let (mut done, mut unknown) = (0, 0);
     loop {
-        if let Err(code) = write_out(&text) {
+        if let Err(code) = write_out(output, errors, &text) {
             return code;
         }
         text.clear();
@@ -124,7 +124,7 @@ pub(super) fn print(rows: Rows) -> ExitCode {
         }
         if interrupted.load(Ordering::SeqCst) {
             progress.clear();
-            complain(&format!("tautline: interrupted after {done} of {count} rows"));
+            complain(errors, &format!("tautline: interrupted after {done} of {count} rows"));
             return ExitCode::from(INTERRUPTED);
         }
         match answers.recv_timeout(WAIT) {
@@ -135,7 +135,7 @@ pub(super) fn print(rows: Rows) -> ExitCode {
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => {
                 progress.clear();
-                complain(&format!("tautline: row {} could not be computed", done + 1));
+                complain(errors, &format!("tautline: row {} could not be computed", done + 1));
                 return ExitCode::from(NOT_WRITTEN);
             }
         }
@@ -153,9 +153,9 @@ pub(super) fn print(rows: Rows) -> ExitCode {
     }
     progress.clear();
     if unknown > 0 {
-        complain(&format!("tautline: in {unknown} of {count} rows the eigenvalues could not be computed"));
+        complain(errors, &format!("tautline: in {unknown} of {count} rows the eigenvalues could not be computed"));
     }
-    match layout.map(|layout| write_out(&layout(&kept))) {
+    match layout.map(|layout| write_out(output, errors, &layout(&kept))) {
         Some(Err(code)) => code,
         _ => ExitCode::SUCCESS,
     }

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use std::io::Read;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -280,9 +281,9 @@ fn file<'a>(file: Option<&'a Path>, set: &'a [String]) -> Result<(&'a Path, Vec<
     }
 }
 
-pub(super) fn run(args: &Args) -> Answer {
+pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
     let (file, sets) = file(args.file.as_deref(), &args.set)?;
-    let scenario = read_scenario(file)?;
+    let scenario = read_scenario(file, input)?;
     let sweep = Sweep::new(&scenario, &sets)?;
     let (rows, limit) = (args.shard.rows(sweep.count), args.options.max_speed);
     sweep.check(rows.clone())?;

@@ -9,6 +9,7 @@ use std::time::Duration;
 use nalgebra::Complex;
 use web_time::Instant;
 
+use super::places::search_limit;
 use super::protocol::{
     CheckAnswer, CriticalAnswer, DrawnShape, Failed, Job, ModeChoice, ModeRow, ModeShape, PoseAnswer, Reply, Request,
     Revision, Update, Which,
@@ -178,11 +179,14 @@ impl Stage {
 
 impl Pose {
     fn new(job: &Job, submitted: Instant) -> Result<Self, Box<Failed>> {
+        let limit = search_limit(job.max_speed);
+        let searched_up_to = limit.clone().unwrap_or_default();
         let failed = |reason: String, speed: f64| Failed {
-            report: Report { searched_up_to: job.max_speed, ..Report::failed(&reason, speed) },
+            report: Report { searched_up_to, ..Report::failed(&reason, speed) },
             cable: None,
             shapes: Vec::new(),
         };
+        let limit = limit.map_err(|reason| Box::new(failed(sentence(&reason), 0.0)))?;
         let parsed = Scenario::from_json(&job.scenario).and_then(|scenario| scenario.to_robot());
         let (robot, motion) = parsed.map_err(|faults| Box::new(failed(faults.to_string(), 0.0)))?;
         let local = Local::new(&robot, &motion).map_err(|failure| {
@@ -203,9 +207,9 @@ impl Pose {
             motion,
             spectrum,
             choice: job.mode,
-            limit: job.max_speed,
+            limit,
             submitted,
-            stage: Stage::searching(job.max_speed),
+            stage: Stage::searching(limit),
             outcome: None,
         })
     }

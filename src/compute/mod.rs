@@ -22,7 +22,8 @@ mod worker;
 pub use engine::Engine;
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::Compute;
-pub use pool::Pool;
+pub use places::Places;
+pub use pool::{Bench, Pool};
 #[cfg(target_arch = "wasm32")]
 pub use web::Compute;
 #[cfg(target_arch = "wasm32")]

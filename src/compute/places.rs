@@ -30,7 +30,7 @@ impl Places {
         let (position, direction) = (motion.position(), motion.direction());
         let study = match &job.study {
             StudyChoice::Line { points, max_speed } => {
-                Study::Line { line: Line::through(&robot, &motion, *points), limit: speed(*max_speed)? }
+                Study::Line { line: Line::through(&robot, &motion, *points), limit: search_limit(*max_speed)? }
             }
             StudyChoice::Map { nx, ny, directions, asked } => Study::Map {
                 grid: Grid::of(&robot, *nx, *ny),
@@ -39,18 +39,18 @@ impl Places {
                     DirectionsChoice::Worst => Directions::Worst(Directions::WORST_OF),
                 },
                 asked: match asked {
-                    AskedChoice::Critical { max_speed } => Asked::Critical { limit: speed(*max_speed)? },
+                    AskedChoice::Critical { max_speed } => Asked::Critical { limit: search_limit(*max_speed)? },
                     AskedChoice::Growth => Asked::Growth { speed: motion.speed() },
                 },
             },
             StudyChoice::Polar { count, max_speed } => {
-                Study::Polar { position, count: *count, limit: speed(*max_speed)? }
+                Study::Polar { position, count: *count, limit: search_limit(*max_speed)? }
             }
             StudyChoice::Campbell { to, count } => {
-                Study::Speeds { position, direction, to: speed(*to)?, count: *count }
+                Study::Speeds { position, direction, to: search_limit(*to)?, count: *count }
             }
             StudyChoice::Convergence { counts, max_speed } => {
-                Study::Elements { position, direction, counts: counts.clone(), limit: speed(*max_speed)? }
+                Study::Elements { position, direction, counts: counts.clone(), limit: search_limit(*max_speed)? }
             }
         };
         Ok(Self { robot, study })
@@ -102,7 +102,8 @@ impl Places {
     }
 }
 
-fn speed(value: f64) -> Result<f64, String> {
+/// A speed up to which to search, or why it is none.
+pub(super) fn search_limit(value: f64) -> Result<f64, String> {
     if value.is_finite() && value > 0.0 {
         return Ok(value);
     }

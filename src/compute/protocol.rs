@@ -29,7 +29,7 @@ pub struct Job {
     pub revision: Revision,
     /// The scenario as in its file.
     pub scenario: String,
-    /// Up to which speed to search for the critical one, in m/s.
+    /// Up to which speed to search for the critical one, in m/s; finite and greater than 0.
     pub max_speed: f64,
     /// The mode whose shape is wanted.
     pub mode: ModeChoice,

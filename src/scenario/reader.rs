@@ -232,15 +232,19 @@ impl<'a> Value<'a> {
         match &object.members {
             None => self.fault(&format!("an object with the fields {}", fields.join(", "))),
             Some(members) => {
-                for (i, (name, raw)) in members.iter().enumerate() {
+                // At most one of each field, however long the file.
+                let mut seen = Vec::with_capacity(fields.len());
+                for (name, raw) in members {
                     let fault = |what: &str, allowed: String| {
                         let value = format!("{what} ({})", shown(raw.get()));
                         document.faults.borrow_mut().push(Fault::new(object.path_of(name), value, allowed));
                     };
                     if !fields.contains(&name.as_str()) {
                         fault("an unknown field", format!("the fields {}", fields.join(", ")));
-                    } else if members[..i].iter().any(|(earlier, _)| earlier == name) {
+                    } else if seen.contains(&name) {
                         fault("a second field of the same name", "each field once".into());
+                    } else {
+                        seen.push(name);
                     }
                 }
             }

@@ -17,6 +17,9 @@ pub type Displacement = Vector2<C64>;
 const SHIFT: f64 = 1e-11;
 /// Solves per mode; the second removes what the start vector left of other modes.
 const ITERATIONS: usize = 3;
+/// An inverse has fourth powers in it: those of larger numbers, and of smaller ones than the reciprocal, leave the range
+/// of floating point.
+const LARGE: f64 = 1e75;
 
 /// Which of the two equal directions of an isotropic problem to look at; elsewhere only a start for the iteration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -54,7 +57,8 @@ impl Mode {
 
 /// The mode of the eigenvalue nearest to `eigenvalue` (1/s) at `speed` (m/s).
 ///
-/// Of several equal eigenvalues it gives one of their shapes: along `polarisation` where the problem is isotropic.
+/// Of several equal eigenvalues it gives one of their shapes: along `polarisation` where the problem is isotropic. Where
+/// the shape leaves the range of floating point, all displacements and shares are zero.
 pub fn mode(vibration: &Vibration, speed: f64, eigenvalue: C64, polarisation: Polarisation) -> Mode {
     let size = eigenvalue.norm().max(frequency_scale(vibration));
     let shift = Complex::new(SHIFT, 0.7 * SHIFT) * size;
@@ -67,11 +71,16 @@ pub fn mode(vibration: &Vibration, speed: f64, eigenvalue: C64, polarisation: Po
     let residual = shape.residual(vibration, speed, eigenvalue);
     let (platform, cables) = shape.energies(vibration);
     let total = platform + cables.iter().sum::<f64>();
+    let known = total.is_normal();
+    if !known {
+        shape.clear();
+    }
+    let share = |energy: f64| if known { energy / total } else { 0.0 };
     Mode {
         eigenvalue,
         residual,
-        platform_share: platform / total,
-        cable_share: cables.iter().map(|energy| energy / total).collect(),
+        platform_share: share(platform),
+        cable_share: cables.into_iter().map(share).collect(),
         displacement: shape.per_cable(),
     }
 }
@@ -190,6 +199,10 @@ impl<'a> Factors<'a> {
 
 /// The inverse, of a matrix nudged off singularity where it is singular to rounding.
 fn invert(matrix: Matrix2<C64>) -> Matrix2<C64> {
+    let size = matrix.iter().fold(0.0_f64, |size, part| size.max(part.re.abs()).max(part.im.abs()));
+    if size > LARGE || (size > 0.0 && size < 1.0 / LARGE) {
+        return invert(matrix / C64::from(size)) / C64::from(size);
+    }
     matrix.try_inverse().unwrap_or_else(|| {
         let nudge = matrix.map(C64::norm).amax().max(f64::MIN_POSITIVE) * f64::EPSILON;
         (matrix + Matrix2::identity() * C64::from(nudge)).try_inverse().unwrap_or_else(Matrix2::identity)
@@ -203,10 +216,24 @@ impl Shape {
 
     /// Makes the largest component 1.
     fn normalise(&mut self) {
-        let largest = self.values().max_by(|a, b| a.norm().total_cmp(&b.norm()));
-        let factor = largest.map_or(C64::from(1.0), C64::inv);
+        let largest = |shape: &Self| shape.values().copied().max_by(|a, b| a.norm().total_cmp(&b.norm()));
+        // The inverse has the square in it.
+        let size = largest(self).map_or(1.0, C64::norm);
+        if !(1.0 / LARGE..=LARGE).contains(&size) {
+            self.scale(C64::from(1.0 / size));
+        }
+        self.scale(largest(self).map_or(C64::from(1.0), |largest| largest.inv()));
+    }
+
+    fn scale(&mut self, factor: C64) {
         self.hub *= factor;
         self.inner.iter_mut().flatten().for_each(|d| *d *= factor);
+    }
+
+    /// Zero everywhere, also where it was not finite.
+    fn clear(&mut self) {
+        self.hub = Displacement::zeros();
+        self.inner.iter_mut().flatten().for_each(|d| *d = Displacement::zeros());
     }
 
     /// Displacements of all n + 1 nodes of each cable.

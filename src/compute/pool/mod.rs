@@ -16,8 +16,7 @@ mod study;
 #[cfg(test)]
 mod tests;
 
-#[cfg(target_arch = "wasm32")]
-pub(super) use bench::Bench;
+pub use bench::Bench;
 
 use self::platform::Shared;
 use crate::compute::protocol::{StudyJob, StudyNews, Topic};
