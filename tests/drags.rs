@@ -43,7 +43,8 @@ fn way() -> impl Strategy<Value = Vec<Place>> {
     prop::collection::vec(place, 12..36)
 }
 
-/// The replies to the last pose, without what is said on the way to them and without the time that they took.
+/// The replies to the last pose, without what is said on the way to them and without the time that they took: the curve of
+/// growth rates has fewer points where that is long, each found from the one before; it begins and ends the same.
 fn answers(replies: Vec<Reply>) -> Vec<Update> {
     let last = replies.into_iter().filter(|reply| reply.revision == LAST).map(|reply| reply.update);
     let kept = last.filter(|update| !matches!(update, Update::Searching(_)));
@@ -51,6 +52,10 @@ fn answers(replies: Vec<Reply>) -> Vec<Update> {
         Update::Critical(mut answer) => {
             answer.elapsed_ms = 0.0;
             Update::Critical(answer)
+        }
+        Update::Curve(points) => {
+            let end = points.last().map(|point| [point[0], 0.0]);
+            Update::Curve(points.into_iter().take(1).chain(end).collect())
         }
         other => other,
     };

@@ -251,7 +251,7 @@ fn check_eigenvalues(seeds: &[u64]) {
         SPEEDS.map(|speed| {
             let spectrum = spectra.iterate(speed)?;
             let found: Vec<_> = spectrum.eigenvalues().step_by(drawn.referee.multiplicity).collect();
-            Some(judge_eigenvalues(&drawn, speed, &found, 0.0))
+            Some(judge_eigenvalues(&drawn, speed, &found, |_| 0.0))
         })
     });
     let (mut wrong, mut undecided, mut not_judged) = (String::new(), Vec::new(), 0);

@@ -23,6 +23,11 @@ const AT_ANCHOR: f64 = 1e-9;
 const ONE_LINE: f64 = 1e-12;
 /// Newton's method gives up after this many steps; it needs 5 from a straight line.
 const NEWTON_STEPS: usize = 40;
+/// A residual of this part of its equations' sizes is rounding. Where the equilibrium cables pull nearly along one line, 1e-11
+/// can be left although there is no solution.
+const SOLVED: f64 = 1e-13;
+/// With such a residual Newton's method goes on for longer.
+const NEARLY: f64 = 1e-10;
 /// The smallest step of the cables' weight, as a part of the whole.
 const SMALLEST_STEP: f64 = 1e-7;
 /// At most this many steps of the weight.
@@ -355,7 +360,7 @@ where
     let (mut f, mut j, mut size) = evaluate(&z);
     for steps in 0..2 * NEWTON_STEPS {
         // Towards the line of both anchors it comes slowly: what is nearly there goes on to rounding.
-        if !size.is_finite() || (steps >= NEWTON_STEPS && size >= 1e-10) {
+        if !size.is_finite() || (steps >= NEWTON_STEPS && size >= NEARLY) {
             return None;
         }
         let lu = j.lu();
@@ -378,13 +383,13 @@ where
                 if relative(&after, &z) < 0.5 * relative(&step, &z) {
                     break (next, values);
                 }
-                return (size < 1e-10).then_some((z, j));
+                return (size < SOLVED).then_some((z, j));
             }
         };
         z = next;
         (f, j, size) = values;
     }
-    (size < 1e-10).then_some((z, j))
+    (size < SOLVED).then_some((z, j))
 }
 
 /// The largest part of a cable's force or length, in `z`, that a change of them is.

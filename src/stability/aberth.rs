@@ -10,17 +10,22 @@ use nalgebra::Complex;
 use super::characteristic::Characteristic;
 use super::undamped;
 use crate::mechanics::Vibration;
+use crate::stability::spectrum::Rounding;
 use crate::stability::{Eigenproblem, NotConverged, Solver, Spectrum};
 
 type C64 = Complex<f64>;
 
 /// Sweeps over the estimates that have not converged before the iteration is given up. The last few take the longest.
 const SWEEPS: usize = 150;
-/// An estimate has converged when its step is this part of it, or [`ROUNDING`] of the largest frequency.
+/// An estimate has converged when its step is this part of it, or [`ROUNDING`] of the largest frequency and no longer much
+/// smaller than the one before.
 const CONVERGED: f64 = 1e-9;
-/// Where thousands of overdamped modes crowd together, rounding moves eigenvalues by more than that. After all sweeps
-/// steps of this part are let pass, if the sums over all eigenvalues are right all the same.
-const STAGNATED: f64 = 1e-4;
+/// Where thousands of overdamped modes crowd together, or stiff modes are a million times faster than slow ones, rounding
+/// moves eigenvalues by more than that. After all sweeps steps of this part are let pass, if the sums over all eigenvalues
+/// are right all the same: six digits are promised.
+const STAGNATED: f64 = 3e-7;
+/// When all have converged the next step would be about this part of each: it gets smaller faster than by Newton's method.
+const ITERATED: f64 = 1e-12;
 const ROUNDING: f64 = 1e-15;
 /// By this part an estimate is moved where its step cannot be computed.
 const ASIDE: f64 = 1e-8;
@@ -111,7 +116,16 @@ impl Spectra {
         if self.dense.is_none() && self.squares.len() <= LARGEST_DENSE {
             self.dense = Some(Eigenproblem::new(vibration)?);
         }
-        self.dense.as_ref().ok_or(NotConverged)?.spectrum(speed)
+        let dense = self.dense.as_ref().ok_or(NotConverged)?.spectrum(speed)?;
+        // The dense solver knows slow modes to a part of the fastest one only. Begun from there the iteration may converge,
+        // to all digits.
+        let near = Estimates { values: dense.modes().map(|mode| mode.eigenvalue).collect(), paired: true };
+        if let Some(spectrum) = self.solve(near.unpaired(), speed).and_then(|found| self.accept(found, speed)) {
+            return Ok(spectrum);
+        }
+        // Newton's step tells how far the dense solver is off where it decides stability.
+        let slope = self.function.at(dense.rightmost(), speed).by_lambda;
+        Ok(dense.known_to(inverse(slope).norm()))
     }
 
     /// The same without the dense solver; `None` where the iteration does not converge to as many eigenvalues as
@@ -123,9 +137,14 @@ impl Spectra {
             let apart = at_rest.paired.then(|| at_rest.unpaired())?;
             self.solve(apart, speed)
         })?;
-        let values = found.all();
+        self.accept(found, speed)
+    }
+
+    /// The spectrum of all eigenvalues and what is known of their rounding; the next one begins with it.
+    fn accept(&mut self, (found, relative): (Estimates, f64), speed: f64) -> Option<Spectrum> {
+        let (values, rounding) = (found.all(), Rounding { relative, absolute: 0.0 });
         self.last = Some(found);
-        Spectrum::new(speed, Solver::Structured, values, self.multiplicity).ok()
+        Spectrum::new(speed, Solver::Structured, rounding, values, self.multiplicity).ok()
     }
 
     /// About the eigenvalues at rest, in pairs where no mode is overdamped.
@@ -148,12 +167,12 @@ impl Spectra {
         if paired { estimates } else { estimates.unpaired() }
     }
 
-    /// Iterates from `estimates` to the eigenvalues at `speed`.
-    fn solve(&self, mut estimates: Estimates, speed: f64) -> Option<Estimates> {
+    /// Iterates from `estimates` to the eigenvalues at `speed`, and to which part of itself each is then known.
+    fn solve(&self, mut estimates: Estimates, speed: f64) -> Option<(Estimates, f64)> {
         let count = estimates.values.len();
         let mut converged = vec![false; count];
         // Newton's steps without the other estimates: how far the next eigenvalue may be.
-        let mut newton = vec![0.0; count];
+        let (mut newton, mut steps) = (vec![0.0; count], vec![f64::INFINITY; count]);
         let mut largest_step = 0.0;
         let (mut whole, mut last_step) = (true, f64::INFINITY);
         for _ in 0..SWEEPS {
@@ -169,7 +188,9 @@ impl Spectra {
                 });
                 newton[j] = alone.norm();
                 let size = z.norm();
-                *done = step.norm() <= (CONVERGED * size).max(ROUNDING * self.scale);
+                let before = std::mem::replace(&mut steps[j], step.norm());
+                let rounding = step.norm() <= ROUNDING * self.scale && step.norm() > 0.5 * before;
+                *done = rounding || step.norm() <= CONVERGED * size;
                 largest_step = largest_step.max(step.norm() / size);
                 let largest = LARGEST_STEP * size;
                 if step.norm() > largest {
@@ -181,7 +202,6 @@ impl Spectra {
             if all && whole {
                 // Near each other estimates come to rest slowly: they go on for as long as it gains something.
                 if largest_step > 0.1 * last_step {
-                    largest_step = CONVERGED;
                     break;
                 }
                 last_step = largest_step;
@@ -197,8 +217,9 @@ impl Spectra {
         if largest_step > STAGNATED || estimates.values.iter().enumerate().any(same) {
             return None;
         }
-        let estimates = estimates.symmetric(largest_step)?;
-        self.are_all(&estimates, speed).then_some(estimates)
+        let estimates = estimates.symmetric(largest_step.max(CONVERGED))?;
+        let error = if largest_step > CONVERGED { largest_step } else { ITERATED };
+        self.are_all(&estimates, speed).then_some((estimates, error))
     }
 
     /// The step of the j-th estimate from `z`: without regard to the others, and with it. `None` where it is not finite.

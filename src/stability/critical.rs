@@ -228,8 +228,9 @@ impl CriticalSearch {
                     return Ok(Some(Outcome::NoneUpTo(self.limit)));
                 }
                 // It must be growth that changes its sign there, and not rounding.
-                for near in [crossing - CERTAIN, crossing + CERTAIN] {
-                    if threshold == 0.0 && near > 0.0 && is_hidden(&spectrum(near)?) {
+                for (near, sign) in [((crossing - CERTAIN).max(0.0), -1.0), (crossing + CERTAIN, 1.0)] {
+                    let spectrum = spectrum(near)?;
+                    if threshold == 0.0 && (is_hidden(&spectrum) || spectrum.growth_rate() * sign < 0.0) {
                         return Err(NotConverged);
                     }
                 }
@@ -269,7 +270,7 @@ pub fn structured(vibration: &Vibration, limit: f64) -> Result<Outcome, Doubt> {
 
 /// Whether the growth rate may be rounding.
 fn is_hidden(spectrum: &Spectrum) -> bool {
-    spectrum.growth_rate().abs() <= spectrum.rounding()
+    spectrum.growth_rate().abs() <= spectrum.rounding(spectrum.rightmost())
 }
 
 fn is_undamped(vibration: &Vibration) -> bool {

@@ -4,10 +4,14 @@ use nalgebra::{Complex, DMatrix, Schur};
 
 use crate::mechanics::{Hub, Vibration};
 use crate::robot::Damping;
+use crate::stability::spectrum::Rounding;
 use crate::stability::{NotConverged, Solver, Spectrum};
 
 /// Iterations per eigenvalue after which the Schur form counts as not converging; it needs two or three.
 const ITERATIONS_PER_EIGENVALUE: usize = 60;
+/// The Schur form's backward error is this many times n ε ‖A‖. What can be proved grows with n as well; traces of squares show
+/// at most 2.
+const BACKWARD: f64 = 4.0;
 
 /// The eigenvalue problem (λ² M + λ (v C + αM + βK) + K + v² D) q = 0 of a [`Vibration`], prepared for many speeds.
 ///
@@ -124,7 +128,9 @@ impl Eigenproblem {
         }
         let eigenvalues = eigenvalues(&companion).ok_or(NotConverged)?;
         let eigenvalues = eigenvalues.iter().map(|s| s * self.scale).collect();
-        Spectrum::new(speed, Solver::Dense, eigenvalues, self.multiplicity)
+        // They are those of a matrix so near to it (Golub and Van Loan, Matrix Computations, section 7.5).
+        let absolute = BACKWARD * (2 * n) as f64 * f64::EPSILON * companion.norm() * self.scale;
+        Spectrum::new(speed, Solver::Dense, Rounding { relative: 0.0, absolute }, eigenvalues, self.multiplicity)
     }
 }
 

@@ -8,12 +8,12 @@ use crate::stability::NotConverged;
 
 /// Real parts below this part of the largest |λ| are zero to rounding.
 const ROUNDING: f64 = 1e-13;
-/// The dense solver gives every eigenvalue to this part of the largest |λ|, times its condition: n ε ‖A‖ for a few hundred
-/// unknowns, where 1e-12 has been seen.
-const DENSE: f64 = 1e-11;
-/// The iteration by structure gives each eigenvalue to about this part of itself: its last step is a thousand times larger
-/// at most, and it converges faster than Newton's method.
-const ITERATED: f64 = 1e-12;
+/// How far a solver's rounding may have moved an eigenvalue: by a part of itself, and by so many 1/s, times its condition.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Rounding {
+    pub relative: f64,
+    pub absolute: f64,
+}
 
 /// What gave the eigenvalues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,6 +29,7 @@ pub enum Solver {
 pub struct Spectrum {
     speed: f64,
     solver: Solver,
+    rounding: Rounding,
     distinct: Vec<Complex<f64>>,
     multiplicity: usize,
 }
@@ -60,6 +61,7 @@ impl Spectrum {
     pub(super) fn new(
         speed: f64,
         solver: Solver,
+        rounding: Rounding,
         mut eigenvalues: Vec<Complex<f64>>,
         multiplicity: usize,
     ) -> Result<Self, NotConverged> {
@@ -69,7 +71,13 @@ impl Spectrum {
         eigenvalues.sort_by(|a, b| {
             (a.im.abs().total_cmp(&b.im.abs())).then(a.re.total_cmp(&b.re)).then(a.im.total_cmp(&b.im))
         });
-        Ok(Self { speed, solver, distinct: eigenvalues, multiplicity })
+        Ok(Self { speed, solver, rounding, distinct: eigenvalues, multiplicity })
+    }
+
+    /// The same, of which no eigenvalue is known better than to `absolute` (1/s).
+    pub(super) fn known_to(mut self, absolute: f64) -> Self {
+        self.rounding.absolute = self.rounding.absolute.max(absolute);
+        self
     }
 
     /// The speed in m/s.
@@ -104,13 +112,10 @@ impl Spectrum {
         self.rightmost().re
     }
 
-    /// How far rounding may have moved the growth rate, in 1/s: a part of that eigenvalue by structure, of the largest one
-    /// by the dense solver.
-    pub fn rounding(&self) -> f64 {
-        match self.solver {
-            Solver::Structured => ITERATED * self.rightmost().norm(),
-            Solver::Dense => DENSE * self.largest(),
-        }
+    /// How far rounding may have moved `eigenvalue`, in 1/s: by a part of itself where the iteration by structure has found
+    /// it; by a number that belongs to the largest one, times the eigenvalue's condition, by the dense solver.
+    pub fn rounding(&self, eigenvalue: Complex<f64>) -> f64 {
+        self.rounding.relative * eigenvalue.norm() + self.rounding.absolute
     }
 
     /// Whether every Re λ < 0, by more than the rounding of a robot without damping.

@@ -123,7 +123,7 @@ impl Hung {
             }
             p -= step * part;
         }
-        panic!("no equilibrium of a cable of length {length} along {chord:?}");
+        None
     }
 
     /// The force against the length: from 1e5 N down in steps of 15 %, then from no slack up to 200 %.

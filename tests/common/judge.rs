@@ -28,8 +28,12 @@ const TIE: f64 = 1e-6;
 const ILL: f64 = 1e-6;
 /// A crossing is looked at from this part of its speed below and above.
 const ASIDE: f64 = 1e-4;
-/// The last step of the iteration for all eigenvalues is at most this part of each.
+/// In so many steps.
+const STEPS: u32 = 8;
+/// The last step of the iteration for all eigenvalues is at most this part of each, where rounding is small.
 const CONVERGED: f64 = 1e-9;
+/// Of an extreme robot's eigenvalues so many digits are promised.
+const PROMISED: f64 = 1e-6;
 
 /// A robot with its referee.
 pub struct Drawn {
@@ -73,6 +77,12 @@ fn surely_grows(drawn: &Drawn, speed: f64) -> Option<bool> {
     Some(known.iter().any(|k| k.lambda.re - k.error > threshold(drawn)))
 }
 
+/// Whether nothing grows at `speed` whatever the referee's rounding is.
+fn surely_stable(drawn: &Drawn, speed: f64) -> Option<bool> {
+    let known = drawn.referee.known(speed)?;
+    Some(known.iter().all(|k| k.lambda.re + k.error <= threshold(drawn)))
+}
+
 /// Each cable's share of the kinetic energy of a mode.
 fn shares(drawn: &Drawn, known: &Known) -> Vec<f64> {
     let robot = &drawn.robot;
@@ -102,10 +112,14 @@ fn judge_crossing(drawn: &Drawn, critical: &Critical) -> Result<f64, Verdict> {
     let known = drawn.referee.known(critical.speed).ok_or_else(|| Verdict::no_referee(critical.speed))?;
     let distance = |k: &&Known| (k.lambda - critical.eigenvalue).norm();
     let nearest = known.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("eigenvalues");
+    if nearest.error > 0.1 * nearest.lambda.norm() {
+        return Err(Verdict::NotJudged(format!("{critical:?} crosses by what is known to {:e} alone", nearest.error)));
+    }
     let exact = AGREEMENT + 2.0 * nearest.error / nearest.slope.re.abs();
     let around = |exact: f64| {
         let rate = |speed: f64| drawn.referee.growth_rate(speed).ok_or_else(|| Verdict::no_referee(speed));
-        Ok([rate(critical.speed - exact)?, rate(critical.speed + exact)?])
+        // Backwards a robot is another one.
+        Ok([rate((critical.speed - exact).max(0.0))?, rate(critical.speed + exact)?])
     };
     if exact > CERTAIN {
         let [below, above] = around(CERTAIN)?;
@@ -113,7 +127,7 @@ fn judge_crossing(drawn: &Drawn, critical: &Critical) -> Result<f64, Verdict> {
         let unknown = || Verdict::NotJudged(format!("{critical:?} is known to {exact:e} m/s"));
         return if agree { Ok(CERTAIN) } else { Err(unknown()) };
     }
-    if distance(&nearest) > nearest.error + AGREEMENT * nearest.slope.norm() {
+    if distance(&nearest) > nearest.error + CONVERGED * nearest.lambda.norm() + AGREEMENT * nearest.slope.norm() {
         return wrong(format!("the nearest eigenvalue is {nearest:?}"));
     }
     if nearest.slope.re <= 0.0 {
@@ -121,7 +135,10 @@ fn judge_crossing(drawn: &Drawn, critical: &Critical) -> Result<f64, Verdict> {
     }
     let [below, above] = around(exact)?;
     if below > threshold(drawn) || above <= 0.0 {
-        return wrong(format!("growth {below:e} below and {above:e} above"));
+        let what = format!("growth {below:e} below and {above:e} above");
+        let rounding = surely_grows(drawn, (critical.speed - exact).max(0.0)) == Some(false)
+            && surely_stable(drawn, critical.speed + exact) == Some(false);
+        return if rounding { Err(Verdict::NotJudged(what)) } else { wrong(what) };
     }
     if (critical.kind == Kind::Flutter) != (nearest.lambda.im.abs() > nearest.error) {
         return wrong(format!("the eigenvalue is {}", nearest.lambda));
@@ -210,14 +227,19 @@ fn allowed(known: &[Known]) -> Vec<(f64, bool)> {
 ///
 /// Each has its own partner among the referee's, no further from it than rounding explains. With stiffness damping the
 /// stiffest modes have eigenvalues that crowd together at −1/β, where that says little: there Q(λ, v) has to be singular
-/// but for rounding and for the iteration's last step as well. The solver's own `rounding` (1/s) is allowed
-/// to all of them.
-pub fn judge_eigenvalues(drawn: &Drawn, speed: f64, found: &[Complex<f64>], rounding: f64) -> Verdict {
+/// but for rounding and for the iteration's last step as well. The solver's own `rounding` (1/s) of each is
+/// allowed.
+pub fn judge_eigenvalues(
+    drawn: &Drawn,
+    speed: f64,
+    found: &[Complex<f64>],
+    rounding: impl Fn(Complex<f64>) -> f64,
+) -> Verdict {
     let referee = &drawn.referee;
     let Some(known) = referee.known(speed) else { return Verdict::no_referee(speed) };
     let expected: Vec<_> = known.iter().map(|k| k.lambda).collect();
     let (allowed, ill): (Vec<_>, Vec<_>) =
-        allowed(&known).into_iter().map(|(error, ill)| (error + rounding, ill)).unzip();
+        allowed(&known).into_iter().zip(&expected).map(|((error, ill), &l)| (error + rounding(l), ill)).unzip();
     if found.len() != expected.len() {
         return Verdict::Wrong(format!("{} eigenvalues at {speed} m/s, not {}", found.len(), expected.len()));
     }
@@ -233,8 +255,9 @@ pub fn judge_eigenvalues(drawn: &Drawn, speed: f64, found: &[Complex<f64>], roun
         let nearest = (0..expected.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         if nearest.is_some_and(|j| ill[j]) {
             let (residual, slope) = referee.distance_from_singular(speed, lambda);
-            let relative = CONVERGED + rounding / lambda.norm();
-            let allowed = referee.size() as f64 * f64::EPSILON + relative * slope;
+            let relative = CONVERGED + rounding(lambda) / lambda.norm();
+            // As the referee's own backward error.
+            let allowed = 4.0 * referee.size() as f64 * f64::EPSILON + relative * slope;
             if residual.is_nan() || residual > allowed {
                 return Verdict::Wrong(format!("residual {residual:e} of {lambda} at {speed} m/s, not {allowed:e}"));
             }
@@ -246,7 +269,7 @@ pub fn judge_eigenvalues(drawn: &Drawn, speed: f64, found: &[Complex<f64>], roun
 /// Compares all eigenvalues at one speed with the problem itself, each on its own scale: also of robots whose fastest
 /// modes are so much faster than their slowest ones that a dense solver knows nothing of these.
 ///
-/// Of the iteration's, every λ is as near to an eigenvalue as its last step and the rounding of Q's entries explain
+/// Of the iteration's, every λ is as near to an eigenvalue as is promised, or as the rounding of Q's entries explains
 /// ([`Near`]), and none is missing or there twice: Σ 1/(z − λⱼ) is tr Q⁻¹ Q′ at places z of all magnitudes. The dense
 /// solver's are compared with the referee's, and rounding relative to the largest is allowed as it is to that.
 pub fn judge_spectrum(drawn: &Drawn, speed: f64, spectrum: &Spectrum) -> Verdict {
@@ -257,7 +280,8 @@ pub fn judge_spectrum(drawn: &Drawn, speed: f64, spectrum: &Spectrum) -> Verdict
     }
     let found: Vec<C64> = all.into_iter().step_by(drawn.referee.multiplicity).collect();
     if spectrum.solver() == Solver::Dense {
-        return judge_eigenvalues(drawn, speed, &found, spectrum.rounding());
+        let rounding = |lambda: C64| spectrum.rounding(lambda) + PROMISED * lambda.norm();
+        return judge_eigenvalues(drawn, speed, &found, rounding);
     }
     let problem = Problem::new(drawn, speed);
     let mut errors = Vec::with_capacity(found.len());
@@ -265,9 +289,16 @@ pub fn judge_spectrum(drawn: &Drawn, speed: f64, spectrum: &Spectrum) -> Verdict
         let Some(near) = problem.near(lambda) else {
             return Verdict::NotJudged(format!("{lambda} leaves the range of floating point"));
         };
-        let allowed = CONVERGED * lambda.norm() + near.rounding;
-        if near.distance.is_nan() || near.distance > allowed {
-            return Verdict::Wrong(format!("{lambda} at {speed} m/s is off by {:e}, not {allowed:e}", near.distance));
+        let allowed = PROMISED * lambda.norm() + near.rounding;
+        // One step is an estimate, worse where other eigenvalues are near. If the referee's are nearer, two solvers agree.
+        let far = |distance: f64| distance.is_nan() || distance > allowed;
+        if far(near.distance) && far(problem.follow(lambda).map_or(f64::NAN, |(exact, _)| (exact - lambda).norm())) {
+            let referee = drawn.referee.eigenvalues(speed);
+            let nearest = referee.iter().flatten().map(|known| (known - lambda).norm()).fold(f64::NAN, f64::min);
+            if far(nearest) {
+                let off = near.distance;
+                return Verdict::Wrong(format!("{lambda} at {speed} m/s is off by {off:e}, not {allowed:e}"));
+            }
         }
         errors.push(allowed);
     }
@@ -295,20 +326,33 @@ pub fn judge_crossing_closely(drawn: &Drawn, critical: &Critical) -> Verdict {
     if critical.speed == 0.0 {
         return Verdict::NotJudged("at rest".into());
     }
+    let mut moves = Vec::new();
     for side in [-1.0, 1.0] {
         let speed = (critical.speed * (1.0 + ASIDE * side) + AGREEMENT * side).max(0.0);
-        let problem = Problem::new(drawn, speed);
-        // By Newton's method from where it crosses.
-        let (mut lambda, mut near) = (critical.eigenvalue, None);
-        for _ in 0..6 {
-            near = problem.near(lambda);
-            let Some(near) = &near else { break };
-            lambda -= near.step;
-        }
-        let growth = lambda.re - threshold(drawn);
-        let Some(near) = near.filter(|near| near.distance <= 1e-3 * growth.abs()) else {
+        // Followed in small steps: others may be near.
+        let parts = (1..=STEPS).map(|k| critical.speed + (speed - critical.speed) * f64::from(k) / f64::from(STEPS));
+        let followed = parts.fold(Some((critical.eigenvalue, None)), |last, speed| {
+            let (lambda, near) = Problem::new(drawn, speed).follow(last?.0)?;
+            Some((lambda, Some(near)))
+        });
+        let Some((lambda, Some(near))) = followed else {
             return Verdict::NotJudged("the eigenvalue that crosses cannot be followed".into());
         };
+        moves.push(lambda - critical.eigenvalue);
+        // Through a crossing it moves on; what turns back there is another one.
+        if let [below, above] = moves[..]
+            && (above + below).norm() > 0.5 * (above - below).norm()
+        {
+            return Verdict::NotJudged("the eigenvalue that crosses cannot be followed".into());
+        }
+        let threshold = threshold(drawn);
+        let growth = lambda.re - threshold;
+        if (0.25 * threshold..4.0 * threshold).contains(&lambda.re) {
+            return Verdict::NotJudged(format!("{lambda} at {speed} m/s is about the largest that counts as zero"));
+        }
+        if near.distance > 1e-3 * growth.abs() {
+            return Verdict::NotJudged(format!("{lambda} at {speed} m/s is known to {:e}", near.distance));
+        }
         if growth.abs() <= near.rounding + near.distance {
             return Verdict::NotJudged(format!("{lambda} at {speed} m/s is known to {:e}", near.rounding));
         }
@@ -385,6 +429,21 @@ impl Problem {
         let rounding = 8.0 * n as f64 * f64::EPSILON * (sizes(&y).dot(&(size * sizes(&x))) / by_slope).norm();
         let near = Near { step, distance: step.norm(), rounding };
         near.rounding.is_finite().then_some(near)
+    }
+
+    /// The eigenvalue near `lambda` by Newton's method: `None` where a step is not smaller than half the one before, unless it
+    /// is rounding, for then it may have gone to another one.
+    fn follow(&self, mut lambda: C64) -> Option<(C64, Near)> {
+        let mut near = self.near(lambda)?;
+        for _ in 0..6 {
+            lambda -= near.step;
+            let next = self.near(lambda)?;
+            if next.distance > (0.5 * near.distance).max(next.rounding) {
+                return None;
+            }
+            near = next;
+        }
+        Some((lambda, near))
     }
 
     /// tr Q⁻¹ Q′ = Σ 1/(z − λⱼ), and its rounding: n ε |Q⁻¹| |Q| |Q⁻¹| |Q′| at most.

@@ -1,6 +1,8 @@
 //! All eigenvalues of one robot's small vibrations by a dense eigenvalue solver that is not the crate's, from matrices
 //! that are not the crate's ([`super::dense`]), with bounds of their rounding errors.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::evd::{ComputeEigenvectors, evd_real, evd_scratch};
 use faer::linalg::solvers::Solve;
@@ -100,7 +102,7 @@ impl Referee {
     /// The eigenvalues at `speed`, in 1/s, once each; `None` where the solver has not converged.
     pub fn eigenvalues(&self, speed: f64) -> Option<Vec<C64>> {
         let matrix = self.companion(speed);
-        let values = eigenvalues(&matrix, None);
+        let values = eigenvalues(&matrix, None)?;
         // The solver does not tell when it has given up: then the eigenvalues and their squares do not add up.
         let (sum, squares): (C64, C64) = (values.iter().sum(), values.iter().map(|s| s * s).sum());
         let error = backward_error(&matrix);
@@ -141,7 +143,7 @@ impl Referee {
         let matrix = self.companion(speed);
         let n = matrix.nrows();
         let (mut left, mut right) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
-        let values = eigenvalues(&matrix, Some([&mut left, &mut right]));
+        let values = eigenvalues(&matrix, Some([&mut left, &mut right]))?;
         let backward = backward_error(&matrix);
         let slope = &self.by_speed + &self.by_square * (2.0 * speed);
         let vector = |of: &DMatrix<f64>, j: usize, im: f64| {
@@ -201,7 +203,7 @@ fn backward_error(matrix: &DMatrix<f64>) -> f64 {
 }
 
 /// The eigenvalues of a matrix by faer, on one thread; left and right eigenvectors where there is room for them.
-fn eigenvalues(matrix: &DMatrix<f64>, vectors: Option<[&mut DMatrix<f64>; 2]>) -> Vec<C64> {
+fn eigenvalues(matrix: &DMatrix<f64>, vectors: Option<[&mut DMatrix<f64>; 2]>) -> Option<Vec<C64>> {
     let n = matrix.nrows();
     let (mut re, mut im) = (Col::<f64>::zeros(n), Col::<f64>::zeros(n));
     let wanted = if vectors.is_some() { ComputeEigenvectors::Yes } else { ComputeEigenvectors::No };
@@ -210,16 +212,19 @@ fn eigenvalues(matrix: &DMatrix<f64>, vectors: Option<[&mut DMatrix<f64>; 2]>) -
         Some(pair) => pair.map(|m| Some(MatMut::from_column_major_slice_mut(m.as_mut_slice(), n, n))),
         None => [None, None],
     };
-    evd_real(
-        MatRef::from_column_major_slice(matrix.as_slice(), n, n),
-        re.as_diagonal_mut(),
-        im.as_diagonal_mut(),
-        left,
-        right,
-        Par::Seq,
-        MemStack::new(&mut buffer),
-        faer::prelude::default(),
-    )
-    .expect("finite entries");
-    re.iter().zip(im.iter()).map(|(&re, &im)| C64::new(re, im)).collect()
+    let solve = || {
+        evd_real(
+            MatRef::from_column_major_slice(matrix.as_slice(), n, n),
+            re.as_diagonal_mut(),
+            im.as_diagonal_mut(),
+            left,
+            right,
+            Par::Seq,
+            MemStack::new(&mut buffer),
+            faer::prelude::default(),
+        )
+    };
+    // With some matrices the solver reaches beyond its own bounds and panics.
+    catch_unwind(AssertUnwindSafe(solve)).ok()?.expect("finite entries");
+    Some(re.iter().zip(im.iter()).map(|(&re, &im)| C64::new(re, im)).collect())
 }
