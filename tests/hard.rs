@@ -438,7 +438,7 @@ fn check_border(robot: &Robot, mut inside: Vec2, mut outside: Vec2) -> &'static 
         }
         Infeasible::TooSlack { cable, .. } | Infeasible::GoesSlack { cable } => {
             let statics = mechanics::solve(robot, inside).expect("inside");
-            let forces = statics.cables[cable].forces.iter().map(|force| force.norm());
+            let forces = statics.cables[cable].forces.iter().map(Vec2::norm);
             let (least, largest) = forces.fold((f64::INFINITY, 0.0_f64), |(a, b), force| (a.min(force), b.max(force)));
             if least < 1e-6 * largest {
                 return name(&reason);

@@ -330,9 +330,10 @@ pub fn judge_crossing_closely(drawn: &Drawn, critical: &Critical) -> Verdict {
     for side in [-1.0, 1.0] {
         let speed = (critical.speed * (1.0 + ASIDE * side) + AGREEMENT * side).max(0.0);
         // Followed in small steps: others may be near.
-        let parts = (1..=STEPS).map(|k| critical.speed + (speed - critical.speed) * f64::from(k) / f64::from(STEPS));
-        let followed = parts.fold(Some((critical.eigenvalue, None)), |last, speed| {
-            let (lambda, near) = Problem::new(drawn, speed).follow(last?.0)?;
+        let mut parts =
+            (1..=STEPS).map(|k| critical.speed + (speed - critical.speed) * f64::from(k) / f64::from(STEPS));
+        let followed = parts.try_fold((critical.eigenvalue, None), |last, speed| {
+            let (lambda, near) = Problem::new(drawn, speed).follow(last.0)?;
             Some((lambda, Some(near)))
         });
         let Some((lambda, Some(near))) = followed else {
