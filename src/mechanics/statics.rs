@@ -23,9 +23,11 @@ const AT_ANCHOR: f64 = 1e-9;
 const ONE_LINE: f64 = 1e-12;
 /// Newton's method gives up after this many steps; it needs 5 from a straight line.
 const NEWTON_STEPS: usize = 40;
-/// A residual of this part of its equations' sizes is rounding. Where the equilibrium cables pull nearly along one line, 1e-11
-/// can be left although there is no solution.
+/// A residual of this part of its equations' sizes is rounding, or of what some roundings of the unknowns make of it: much
+/// where an element carries next to nothing, for then they turn it. Where the equilibrium cables pull nearly along one line,
+/// 1e-11 can be left although there is no solution.
 const SOLVED: f64 = 1e-13;
+const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
 /// With such a residual Newton's method goes on for longer.
 const NEARLY: f64 = 1e-10;
 /// The smallest step of the cables' weight, as a part of the whole.
@@ -357,6 +359,9 @@ where
         let size = f.component_div(scale).norm();
         (f, j, size)
     };
+    let solved = |z: &SVector<f64, N>, j: &OMatrix<f64, Const<N>, Const<N>>, size: f64| {
+        size < SOLVED || size < ROUNDINGS * (j.abs() * z.abs()).component_div(scale).norm()
+    };
     let (mut f, mut j, mut size) = evaluate(&z);
     for steps in 0..2 * NEWTON_STEPS {
         // Towards the line of both anchors it comes slowly: what is nearly there goes on to rounding.
@@ -383,13 +388,13 @@ where
                 if relative(&after, &z) < 0.5 * relative(&step, &z) {
                     break (next, values);
                 }
-                return (size < SOLVED).then_some((z, j));
+                return solved(&z, &j, size).then_some((z, j));
             }
         };
         z = next;
         (f, j, size) = values;
     }
-    (size < SOLVED).then_some((z, j))
+    solved(&z, &j, size).then_some((z, j))
 }
 
 /// The largest part of a cable's force or length, in `z`, that a change of them is.
@@ -405,7 +410,7 @@ fn relative<const N: usize>(change: &SVector<f64, N>, z: &SVector<f64, N>) -> f6
 mod tests {
     use super::*;
     use crate::mechanics::Material;
-    use crate::robot::paper;
+    use crate::robot::{Cable, RobotSpec, Strain, TensionLaw, paper, paper_spec};
 
     /// The platform near an anchor and far from the origin: positions have 1e-15 m of rounding, the cable 1e-6 m.
     #[test]
@@ -420,6 +425,41 @@ mod tests {
             let expected = stretched / Material::of(&robot).stretch(shape.tension_at_platform);
             let error = (shape.length / expected - 1.0).abs();
             assert!(error < 1e-3 * gap.max(1e-5) + 4e-15 / gap, "{gap} m away: {error}");
+        }
+    }
+
+    /// A platform of half a gram holds a cable of 4 kg whose middle element carries less and less: rounding turns it by more
+    /// than it moves anything else.
+    #[test]
+    fn a_shape_is_found_where_an_element_carries_next_to_nothing() {
+        let cable = |x, y, tension| Cable { anchor: Vec2::new(x, y), tension };
+        let robot = Robot::new(RobotSpec {
+            youngs_modulus: 1.84e6,
+            area: 5e-5,
+            mass_per_length: 0.128,
+            strain: Strain::Engineering,
+            platform_mass: 4.84e-4,
+            cables: vec![
+                cable(-9.81, -2.125, TensionLaw::Equilibrium),
+                cable(-0.142, 5.528, TensionLaw::Equilibrium),
+                cable(
+                    -0.217,
+                    -6.563,
+                    TensionLaw::Hypot { horizontal: [38.62, 0.70, -1.00], vertical: [62.64, 1.43, 0.86] },
+                ),
+                cable(0.236, 1.874, TensionLaw::Constant(17.38)),
+            ],
+            elements: 3,
+            ..paper_spec()
+        })
+        .expect("a legal robot");
+        let (towards, first) = (Vec2::new(-0.906, 0.423), Vec2::new(0.047_78, 1.348_56));
+        // The force falls to zero at k = −11.
+        for k in -8..100 {
+            let position = first + towards * 1e-6 * f64::from(k);
+            let statics = solve(&robot, position).unwrap_or_else(|failure| panic!("{position:?}: {failure}"));
+            let middle = statics.cables[0].forces[1].norm();
+            assert!(middle < 0.01, "{middle} N at {position:?}");
         }
     }
 }
