@@ -8,8 +8,9 @@ mod common;
 use common::dense::Dense;
 use common::random::{config, mirrored, moving_robot, statics};
 use common::{close, eigenproblem, largest, same_multiset};
-use nalgebra::{Complex, DVector};
+use nalgebra::{Complex, DVector, Vector2};
 use proptest::prelude::*;
+use tautline::mechanics::CableShape;
 use tautline::robot::Damping;
 use tautline::stability::{CriticalSearch, Method, Mode, Outcome, Polarisation, Sample, Spectrum, mode};
 use tautline::{Local, Motion, Robot};
@@ -41,6 +42,26 @@ fn damped(squared_frequency: f64, damping: Damping) -> [C64; 2] {
     [larger, squared_frequency / larger]
 }
 
+/// The shares of the kinetic energy are those of the platform and of each cable, whose elements' speeds are linear: by
+/// Simpson's rule, which is exact for their squares.
+fn check_shares(robot: &Robot, local: &Local, mode: &Mode) {
+    let platform = robot.platform_mass * mode.displacement[0][0].norm_squared();
+    let cable = |(nodes, shape): (&Vec<Vector2<C64>>, &CableShape)| {
+        let mass = robot.mass_per_length * shape.length / robot.elements as f64;
+        let element = |pair: &[Vector2<C64>]| {
+            let middle = (pair[0] + pair[1]) * C64::from(0.5);
+            mass / 6.0 * (pair[0].norm_squared() + 4.0 * middle.norm_squared() + pair[1].norm_squared())
+        };
+        nodes.windows(2).map(element).sum::<f64>()
+    };
+    let cables: Vec<f64> = mode.displacement.iter().zip(&local.statics.cables).map(cable).collect();
+    let total = platform + cables.iter().sum::<f64>();
+    close(mode.platform_share, platform / total, 1e-12, "the platform's share of the kinetic energy");
+    for (i, (share, energy)) in mode.cable_share.iter().zip(&cables).enumerate() {
+        close(*share, energy / total, 1e-12, format_args!("the share of cable {i}"));
+    }
+}
+
 /// The spectrum is complete, and every eigenvalue has a mode.
 fn check_spectrum(robot: &Robot, motion: &Motion, local: &Local, dense: &Dense, spectrum: &Spectrum) {
     let eigenvalues: Vec<C64> = spectrum.eigenvalues().collect();
@@ -69,8 +90,7 @@ fn check_spectrum(robot: &Robot, motion: &Motion, local: &Local, dense: &Dense, 
             // elimination without pivoting costs where the flow makes modes steep.
             let allowed = 1e-12 * top * slope + 1e-9 * size;
             close(residual, 0.0, allowed, format_args!("residual of the mode at {}", value.eigenvalue));
-            let shares = mode.platform_share + mode.cable_share.iter().sum::<f64>();
-            close(shares, 1.0, 1e-12, "shares of the kinetic energy");
+            check_shares(robot, local, &mode);
         }
     }
 }

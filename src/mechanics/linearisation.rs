@@ -141,9 +141,4 @@ impl Vibration {
         let hub = usize::from(matches!(self.hub, Hub::Platform(_)));
         hub + self.chains.iter().map(Chain::inner_nodes).sum::<usize>()
     }
-
-    /// Number of eigenvalues, multiplicity included: two per degree of freedom.
-    pub fn eigenvalues(&self) -> usize {
-        4 * self.nodes()
-    }
 }

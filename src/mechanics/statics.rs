@@ -461,5 +461,17 @@ mod tests {
             let middle = statics.cables[0].forces[1].norm();
             assert!(middle < 0.01, "{middle} N at {position:?}");
         }
+        let beyond = solve(&robot, first - towards * 1e-4).expect_err("beyond the end").reason;
+        assert_eq!(beyond, Infeasible::GoesSlack { cable: 0 }.into());
+    }
+
+    #[test]
+    fn a_law_without_tension_is_named() {
+        let mut spec = paper_spec();
+        spec.cables[2].tension = TensionLaw::Hypot { horizontal: [0.0, 60.0, 0.0], vertical: [0.0, 80.0, 0.0] };
+        let robot = Robot::new(spec).expect("a legal robot");
+        assert!(solve(&robot, Vec2::new(1.0, 0.0)).is_ok(), "100 N");
+        let reason = solve(&robot, Vec2::zeros()).expect_err("0 N").reason;
+        assert_eq!(reason, Infeasible::NoTension { cable: 2, tension: 0.0 }.into());
     }
 }

@@ -238,9 +238,190 @@ impl Bounds {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Linearisation, Motion, Robot, RobotSpec, paper_spec};
+    use crate::mechanics::{Chain, Material, elastic, flow_stiffness, mass, transfer};
+    use crate::robot::{Linearisation, Motion, Robot, RobotSpec, Strain, Vec2, paper_spec};
     use crate::stability::Eigenproblem;
     use crate::study::Local;
+
+    const MATERIAL: Material = Material { axial_stiffness: 6250.0, strain: Strain::Green };
+    const MU: f64 = 0.4;
+
+    /// A straight cable of this unstretched length (m) and tension (N) in oblique direction, L' and L'' given.
+    fn straight(length: f64, tension: f64, rates: [f64; 2]) -> Chain {
+        let n = 6;
+        let l = length / f64::from(n);
+        let inflow = |k: i32, rate: f64| [-f64::from(k) * rate / f64::from(n), -f64::from(k + 1) * rate / f64::from(n)];
+        let element = |k| Element {
+            mass: mass(MU, l),
+            transfer: transfer(MU, inflow(k, rates[0])),
+            flow: flow_stiffness(MU, l, inflow(k, rates[0]), inflow(k, rates[1])),
+            elastic: elastic(MATERIAL, Linearisation::Tangent, l, Vec2::new(0.6, 0.8) * tension),
+        };
+        Chain { elements: (0..n).map(element).collect() }
+    }
+
+    fn near(a: f64, b: f64, tolerance: f64, what: &str) {
+        assert!((a - b).abs() <= tolerance * b.abs(), "{what}: {a}, not {b}");
+    }
+
+    /// The root of a function that rises from below zero at 0, by bisection.
+    fn root(f: impl Fn(f64) -> f64) -> f64 {
+        let (mut low, mut high) = (0.0, 1.0);
+        while f(high) < 0.0 {
+            high *= 2.0;
+        }
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            *(if f(middle) < 0.0 { &mut low } else { &mut high }) = middle;
+        }
+        low
+    }
+
+    /// Of straight cables, where waves travel at c = sqrt(N/(λ μ)) and nothing varies along the cable but its flow.
+    #[test]
+    fn straight_cables_have_known_bounds() {
+        let (lengths, tensions, rates) = ([3.0, 11.0], [90.0, 40.0], [[-0.6, 0.2], [0.9, -0.3]]);
+        let vibration = Vibration {
+            chains: [0, 1].map(|i| straight(lengths[i], tensions[i], rates[i])).into(),
+            hub: Hub::Platform(5.0),
+            damping: Damping { alpha: 0.3, beta: 0.002 },
+            isotropic: false,
+        };
+        let bounds = Bounds::new(&vibration).unwrap();
+        let across = tensions.map(|tension| tension / MATERIAL.stretch(tension));
+        let c = across.map(|a| (a / MU).sqrt());
+        let largest = |of: [f64; 2]| of[0].max(of[1]);
+        let each = |f: &dyn Fn(usize) -> f64| [f(0), f(1)];
+        let travel = each(&|i| lengths[i] / c[i]);
+        near(bounds.reeling, 0.6 / 3.0, 1e-12, "r");
+        near(bounds.slowness, largest(each(&|i| rates[i][0].abs() / c[i])), 1e-12, "s");
+        near(bounds.acceleration, largest(each(&|i| rates[i][1].abs() / c[i])), 1e-12, "a");
+        near(bounds.curvature, largest(each(&|i| 0.5 * rates[i][1].abs() / lengths[i])), 1e-12, "e");
+        near(bounds.travel, largest(travel), 1e-12, "the longest time of a wave");
+        near(bounds.frequency_density(), (travel[0] + travel[1]) / PI, 1e-12, "frequencies per rad/s");
+        // A string held at one end, and the platform on both cables.
+        let held = largest(each(&|i| (2.0 * travel[i] / PI).powi(2)));
+        let hung = 5.0 / (across[0] / lengths[0] + across[1] / lengths[1]);
+        near(bounds.lowest, 1.0 / (held + hung), 1e-12, "the lowest frequency");
+        // An element by itself: its ends swing against each other.
+        let fastest = |i: usize| {
+            let l = lengths[i] / 6.0;
+            12.0 * MATERIAL.tangent(MATERIAL.stretch(tensions[i])) / (MU * l * l)
+        };
+        near(bounds.highest, largest(each(&fastest)), 1e-12, "the highest frequency");
+        near(bounds.decay(7.0), 0.5 * (0.3 + 0.002 * 49.0), 1e-12, "decay");
+        // The frequency ω (1 − (s v)²) of a string changes with v by 2 s² v ω, above the speed of waves as at it.
+        for (speed, slope) in [(4.0, 2.0 * bounds.slowness.powi(2) * 4.0), (100.0, 2.0 * bounds.slowness)] {
+            near(bounds.speed_step(7.0, speed) * slope * 7.0, PI / largest(travel), 1e-12, "a step in v");
+        }
+    }
+
+    /// Where the flow jumps between elements the integrals by parts have further terms.
+    #[test]
+    fn there_are_no_bounds_where_the_flow_jumps() {
+        let mut vibration = Vibration {
+            chains: vec![straight(3.0, 90.0, [-0.6, 0.2])],
+            hub: Hub::Platform(5.0),
+            damping: Damping { alpha: 0.3, beta: 0.002 },
+            isotropic: false,
+        };
+        assert!(Bounds::new(&vibration).is_some());
+        let whole = vibration.chains[0].elements.clone();
+        let flow = [[0.3, 0.4], [-0.1, -0.4 / 3.0]];
+        for (w, rate, holds) in [
+            (flow[0], flow[1], true),
+            ([0.31, 0.4], flow[1], false),
+            ([0.3, 0.41], flow[1], false),
+            (flow[0], [-0.11, -0.4 / 3.0], false),
+            (flow[0], [-0.1, -0.14], false),
+        ] {
+            vibration.chains[0].elements = whole.clone();
+            vibration.chains[0].elements[3].transfer = transfer(MU, w);
+            vibration.chains[0].elements[3].flow = flow_stiffness(MU, 0.5, w, rate);
+            assert_eq!(Bounds::new(&vibration).is_some(), holds, "{w:?} {rate:?}");
+        }
+        vibration.chains[0].elements = whole[1..].to_vec();
+        assert!(Bounds::new(&vibration).is_none(), "flow at the platform");
+        vibration.hub = Hub::Fixed;
+        assert!(Bounds::new(&vibration).is_some(), "flow at a fixed end");
+    }
+
+    fn some_bounds(alpha: f64, beta: f64) -> Bounds {
+        Bounds {
+            damping: Damping { alpha, beta },
+            reeling: 0.11,
+            slowness: 0.07,
+            acceleration: 0.013,
+            curvature: 0.02,
+            lowest: 2.5,
+            highest: 4e6,
+            travel: 1.0,
+            travels: 3.0,
+        }
+    }
+
+    /// At the lowest speed (1) and the left of (2) hold with equality for the lowest frequency.
+    #[test]
+    fn the_lowest_speed_is_where_its_inequalities_meet() {
+        for (alpha, beta) in [(0.4, 0.0), (0.4, 0.02), (0.0, 0.3), (2.0, 0.1)] {
+            let bounds = some_bounds(alpha, beta);
+            let v = bounds.lowest_speed(100.0);
+            let hat = bounds.lowest.sqrt();
+            let omega = (hat * hat - v * v * bounds.curvature).sqrt() - v * bounds.slowness * hat;
+            let damping = alpha + beta * hat * hat - v * bounds.reeling;
+            near(omega * damping, v * v * bounds.acceleration * hat, 1e-4, "(1)");
+            near(bounds.lowest_speed(0.9 * v), 0.9 * v, 0.0, "below");
+        }
+        // Nothing is reeled in and nothing accelerates: frequencies fall to zero at the speed of waves.
+        let steady = Bounds { reeling: 0.0, acceleration: 0.0, curvature: 0.0, ..some_bounds(0.4, 0.0) };
+        near(steady.lowest_speed(100.0), 1.0 / steady.slowness, 1e-5, "the speed of waves");
+    }
+
+    /// At the highest frequency (1) and the right of (2) hold with equality.
+    #[test]
+    fn the_highest_frequency_is_where_its_inequalities_meet() {
+        for (alpha, beta, v) in [(0.4, 0.02, 9.0), (0.0, 0.3, 2.0), (0.4, 0.001, 20.0)] {
+            let bounds = some_bounds(alpha, beta);
+            let omega = bounds.highest_frequency(v);
+            let upper = |hat: f64| v * bounds.slowness * hat + (hat * hat + v * v * bounds.curvature).sqrt();
+            let hat = root(|hat| upper(hat) - omega);
+            let damping = omega * (alpha + beta * hat * hat - v * bounds.reeling);
+            near(damping, v * v * bounds.acceleration * hat, 1e-4, "(1)");
+            let undamped = Bounds { damping: Damping { alpha, beta: 0.0 }, ..bounds };
+            near(undamped.highest_frequency(v), upper(2e3), 2e-6, "of the mesh");
+        }
+        // Mass damping outweighs the reeling: (1) has no solution where its discriminant is negative.
+        let limit = 81.0 * 0.013 / (2.0 * (0.02_f64 * (5.0 - 9.0 * 0.11)).sqrt());
+        near(some_bounds(5.0, 0.02).highest_frequency(9.0), limit, 1e-5, "with much mass damping");
+    }
+
+    /// At the radius (3) and (4) hold with equality, or (4) does for the mesh's highest frequency.
+    #[test]
+    fn the_radius_is_where_its_inequalities_meet() {
+        for (alpha, beta, v, of_the_mesh) in [
+            (0.4, 0.02, 9.0, false),
+            (0.0, 0.3, 2.0, false),
+            (0.4, 0.3, 20.0, false),
+            (0.1, 0.0, 9.0, true),
+            (0.1, 1e-7, 20.0, true),
+        ] {
+            let bounds = some_bounds(alpha, beta);
+            let Bounds { reeling: r, slowness: s, acceleration: a, curvature: e, .. } = bounds;
+            let radius = bounds.largest_unstable(v);
+            let right = |hat: f64| {
+                let square = hat * hat * (1.0 + v * v * s * s) + v * v * a * hat;
+                2.0 * v * s * hat + v * r + 2.0 * square / radius
+            };
+            if of_the_mesh {
+                near(right(2e3), radius, 1e-4, "(4)");
+                continue;
+            }
+            let hat = root(|hat| right(hat) - radius);
+            assert!(hat < 2e3, "{hat}");
+            let fast = (v * v * s * s - 1.0).max(0.0) * hat * hat;
+            near(alpha + beta * hat * hat - v * r, (fast + v * v * e + v * v * a * hat) / radius, 1e-3, "(3)");
+        }
+    }
 
     fn local(linearisation: Linearisation, elements: usize, at: [f64; 2], towards: [f64; 2]) -> Local {
         let robot = Robot::new(RobotSpec { elements, linearisation, ..paper_spec() }).unwrap();

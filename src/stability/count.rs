@@ -125,6 +125,22 @@ mod tests {
     use crate::stability::Eigenproblem;
     use crate::study::Local;
 
+    /// A zero half a length from a step's middle is off the trapezoidal rule by π/2 − 1 and changes the derivative by 2.
+    #[test]
+    fn a_zero_beside_a_step_is_seen() {
+        let zero = C64::new(0.0, 0.5);
+        let [from, to] = [-0.5, 0.5].map(|x| C64::from(x) - zero);
+        let difference = to.ln() - from.ln();
+        for turns in [-2.0, 0.0, 3.0] {
+            let seen = change(difference + C64::new(0.0, turns * TAU), from.inv(), to.inv());
+            assert!((seen - (FRAC_PI_2 - 1.0) / LARGEST_ERROR).abs() < 1e-12, "{seen}");
+        }
+        let along = C64::new(0.0, 1.0);
+        let changed = change((along + 1.0) * 1.5, along, along * 2.0 + 3.0);
+        assert!((changed - 10.0_f64.sqrt() / LARGEST_CHANGE).abs() < 1e-12, "{changed}");
+        assert!(change(difference, from.inv(), C64::new(f64::NAN, 0.0)).is_infinite());
+    }
+
     /// At every speed as many as the dense solver finds, and none beyond the bound.
     #[test]
     fn counts_what_the_dense_solver_finds() {

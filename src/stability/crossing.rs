@@ -402,3 +402,80 @@ fn newton_step(corner: &Corner) -> Option<[f64; 2]> {
     let step = [-b.im / determinant, a.im / determinant];
     step.iter().all(|part| part.is_finite()).then_some(step)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::{Motion, paper};
+    use crate::study::Local;
+
+    fn corner(omega: f64, speed: f64) -> Corner {
+        let zero = C64::new(0.0, 0.0);
+        Corner { omega, speed, log: zero, by_omega: zero, by_speed: zero, zeros: 0 }
+    }
+
+    fn cell([left, right]: [f64; 2], [from, to]: [f64; 2]) -> Cell {
+        Cell { lower: [corner(left, from), corner(right, from)], upper: [corner(left, to), corner(right, to)] }
+    }
+
+    #[test]
+    fn a_trend_is_the_cubic_through_both_ends() {
+        let p = |v: f64| 2.0 - v + 0.5 * v * v + 0.25 * v * v * v;
+        let slope = |v: f64| -1.0 + v + 0.75 * v * v;
+        let trend = Trend::between([1.5, 4.0], [p(1.5), p(4.0)], [slope(1.5), slope(4.0)]);
+        for v in [1.5, 2.7, 4.0, 5.0] {
+            let [value, derivative] = trend.at(v);
+            assert!(
+                (value - p(v)).abs() < 1e-12 && (derivative - slope(v)).abs() < 1e-12,
+                "{value} {derivative} at {v}"
+            );
+        }
+    }
+
+    #[test]
+    fn near_a_cell_is_half_its_size() {
+        let cell = cell([1.0, 3.0], [2.0, 6.0]);
+        for (omega, speed, near) in [
+            (0.01, 0.01, true),
+            (3.99, 7.99, true),
+            (-0.01, 4.0, false),
+            (4.01, 4.0, false),
+            (2.0, -0.01, false),
+            (2.0, 8.01, false),
+        ] {
+            assert_eq!(cell.is_near(omega, speed), near, "{omega} {speed}");
+        }
+    }
+
+    /// In a cell that is no taller, frequencies move by at most 0.35 of their spacing: those of a string by
+    /// 2 s² v ω per unit of v, spaced by π over the time that a wave travels.
+    #[test]
+    fn a_cell_in_which_the_phase_may_turn_is_tall() {
+        let local = Local::new(&paper().unwrap(), &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+        let bounds = Bounds::new(&local.vibration).unwrap();
+        let function = Characteristic::new(&local.vibration);
+        let mut plane = Plane {
+            axis: Axis::new(&function),
+            bounds: &bounds,
+            known: HashMap::new(),
+            trend: Trend::default(),
+            zeros: Vec::new(),
+            evaluations: 0,
+            eligible: 0.0,
+            cell: [1.0, 1.0],
+        };
+        let height = LARGEST_MOVE * bounds.speed_step(30.0, 8.0);
+        for (part, tall) in [(0.99, false), (1.01, true)] {
+            let cell = cell([20.0, 30.0], [8.0 - part * height, 8.0]);
+            assert_eq!(plane.is_tall(&cell), tall, "{part}");
+            assert_eq!(plane.changes(&cell)[1].is_infinite(), tall, "{part}");
+        }
+        // What can cross at all: up to the bound at the top of the cell, or anywhere in the strip.
+        let top = bounds.highest_frequency(8.0);
+        for (eligible, omega, expected) in [(0.0, 0.99, true), (0.0, 1.01, false), (1.1 * top, 1.01, true)] {
+            plane.eligible = eligible;
+            let cell = cell([omega * top, 2.0 * top], [7.0, 8.0]);
+            assert_eq!(plane.is_eligible(&cell), expected, "{eligible} {omega}");
+        }
+    }
+}

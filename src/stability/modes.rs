@@ -43,8 +43,6 @@ pub struct Mode {
     pub cable_share: Vec<f64>,
     /// The platform's share; all shares add up to 1.
     pub platform_share: f64,
-    /// |Q(λ) q|/(|Q| |q|): how well the shape satisfies the equations.
-    pub residual: f64,
 }
 
 impl Mode {
@@ -68,7 +66,6 @@ pub fn mode(vibration: &Vibration, speed: f64, eigenvalue: C64, polarisation: Po
         shape = factors.solve(&shape);
         shape.normalise();
     }
-    let residual = shape.residual(vibration, speed, eigenvalue);
     let (platform, cables) = shape.energies(vibration);
     let total = platform + cables.iter().sum::<f64>();
     let known = total.is_normal();
@@ -78,7 +75,6 @@ pub fn mode(vibration: &Vibration, speed: f64, eigenvalue: C64, polarisation: Po
     let share = |energy: f64| if known { energy / total } else { 0.0 };
     Mode {
         eigenvalue,
-        residual,
         platform_share: share(platform),
         cable_share: cables.into_iter().map(share).collect(),
         displacement: shape.per_cable(),
@@ -260,32 +256,5 @@ impl Shape {
             chain.elements.iter().enumerate().map(element).sum()
         };
         (platform, vibration.chains.iter().zip(self.per_cable()).map(cable).collect())
-    }
-
-    /// |Q(λ) q|/(|Q| |q|) in the largest-component norm.
-    fn residual(&self, vibration: &Vibration, speed: f64, lambda: C64) -> f64 {
-        let mut hub = Displacement::zeros();
-        if let Hub::Platform(mass) = vibration.hub {
-            hub += self.hub * ((lambda * lambda + lambda * vibration.damping.alpha) * mass);
-        }
-        let (mut largest, mut size) = (0.0_f64, 0.0_f64);
-        let norm = |d: Displacement| d.map(C64::norm).amax();
-        for (chain, nodes) in vibration.chains.iter().zip(self.per_cable()) {
-            let mut force = vec![Displacement::zeros(); nodes.len()];
-            for (k, element) in chain.elements.iter().enumerate() {
-                for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    let q = block(vibration, element, speed, lambda, i, j);
-                    size = size.max(q.map(C64::norm).amax());
-                    force[k + i] += q * nodes[k + j];
-                }
-            }
-            hub += force[0];
-            let inner = force[1..chain.elements.len()].iter().map(|&f| norm(f));
-            largest = inner.fold(largest, f64::max);
-        }
-        if self.hub_moves {
-            largest = largest.max(norm(hub));
-        }
-        largest / size
     }
 }

@@ -8,6 +8,7 @@ use crate::stability::NotConverged;
 
 /// Real parts below this part of the largest |λ| are zero to rounding.
 const ROUNDING: f64 = 1e-13;
+
 /// How far a solver's rounding may have moved an eigenvalue: by a part of itself, and by so many 1/s, times its condition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rounding {
@@ -126,5 +127,35 @@ impl Spectrum {
     /// The largest |λ|, in 1/s.
     fn largest(&self) -> f64 {
         self.distinct.iter().map(|l| l.norm()).fold(0.0, f64::max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spectrum(growth: f64) -> Spectrum {
+        let values =
+            [[growth, 2.0], [growth, -2.0], [-3.0, 400.0], [-3.0, -400.0]].map(|[re, im]| Complex::new(re, im));
+        let rounding = Rounding { relative: 1e-12, absolute: 1e-5 };
+        Spectrum::new(1.0, Solver::Dense, rounding, values.into(), 1).unwrap()
+    }
+
+    /// Of a robot without damping real parts are rounding of the largest frequency.
+    #[test]
+    fn what_is_rounding_is_not_stable() {
+        let rounding = 400.0 * ROUNDING;
+        for (growth, stable) in [(-1.0, true), (-1.1 * rounding, true), (-0.9 * rounding, false), (rounding, false)] {
+            assert_eq!(spectrum(growth).is_stable(), stable, "{growth}");
+        }
+    }
+
+    #[test]
+    fn rounding_is_a_part_of_the_eigenvalue_and_a_number() {
+        let spectrum = spectrum(-1.0);
+        for (absolute, expected) in [(0.0, 3e-5), (1e-6, 3e-5), (2e-4, 2.2e-4)] {
+            let rounding = spectrum.clone().known_to(absolute).rounding(Complex::new(-2e7, 0.0));
+            assert!((rounding - expected).abs() < 1e-12, "{rounding}");
+        }
     }
 }

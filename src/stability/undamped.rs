@@ -101,9 +101,67 @@ fn in_series(chain: &Chain) -> Matrix2<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Linearisation, Motion, Robot, RobotSpec, paper_spec};
+    use crate::mechanics::{Material, elastic, flow_stiffness, mass, transfer};
+    use crate::robot::{Damping, Linearisation, Motion, Robot, RobotSpec, Strain, Vec2, paper_spec};
     use crate::stability::Eigenproblem;
     use crate::study::Local;
+
+    /// Straight cables of (unstretched length, tension), in a slanted direction.
+    fn straight(cables: &[[f64; 2]], hub: Hub, linearisation: Linearisation) -> Vibration {
+        let material = Material { axial_stiffness: 6250.0, strain: Strain::Green };
+        let chain = |&[length, tension]: &[f64; 2]| {
+            let l = length / 7.0;
+            let element = Element {
+                mass: mass(0.4, l),
+                transfer: transfer(0.4, [0.0; 2]),
+                flow: flow_stiffness(0.4, l, [0.0; 2], [0.0; 2]),
+                elastic: elastic(material, linearisation, l, Vec2::new(0.6, 0.8) * tension),
+            };
+            Chain { elements: vec![element; 7] }
+        };
+        Vibration {
+            chains: cables.iter().map(chain).collect(),
+            hub,
+            damping: Damping { alpha: 0.0, beta: 0.0 },
+            isotropic: linearisation == Linearisation::Secant,
+        }
+    }
+
+    /// Of uniform cables with fixed ends the estimates are right but for what keeps equal ones apart, and differ.
+    #[test]
+    fn estimates_for_uniform_cables_are_right() {
+        for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
+            let vibration = straight(&[[3.0, 90.0], [11.0, 40.0], [11.0, 40.0]], Hub::Fixed, linearisation);
+            let sorted = |mut squares: Vec<f64>| {
+                squares.sort_by(f64::total_cmp);
+                squares
+            };
+            let exact = sorted(Eigenproblem::new(&vibration).unwrap().undamped_squares());
+            let estimates = sorted(squares(&vibration));
+            assert_eq!(exact.len(), estimates.len());
+            for (estimate, exact) in estimates.iter().zip(&exact) {
+                assert!((estimate / exact - 1.0).abs() < 0.51 * APART, "{estimate} {exact}");
+            }
+            assert!(estimates.windows(2).all(|pair| pair[1] > pair[0] * (1.0 + 1e-4)), "{estimates:?}");
+        }
+    }
+
+    /// A heavy platform on light cables is a mass on springs in series along each cable, to a third of their mass.
+    #[test]
+    fn the_estimate_for_the_platform_is_right() {
+        for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
+            let vibration = straight(&[[3.0, 90.0], [11.0, 40.0]], Hub::Platform(1e4), linearisation);
+            let exact = Eigenproblem::new(&vibration).unwrap().undamped_squares();
+            let lowest = exact.iter().copied().fold(f64::INFINITY, f64::min);
+            let estimates = squares(&vibration);
+            let estimate = estimates.iter().copied().fold(f64::INFINITY, f64::min);
+            assert!((estimate / lowest - 1.0).abs() < 1e-5, "{estimate} {lowest}");
+            let light = straight(&[[3.0, 90.0], [11.0, 40.0]], Hub::Platform(0.0), linearisation);
+            let ratio = *estimates.last().unwrap() / squares(&light).last().unwrap();
+            let third = 0.4 * 14.0 / 3.0;
+            assert!((ratio / (third / (1e4 + third)) - 1.0).abs() < 1e-12, "{ratio}");
+        }
+    }
 
     /// The sums of the dense solver's eigenvalues, and its largest frequency.
     #[test]
@@ -124,6 +182,8 @@ mod tests {
             let largest = squares.iter().copied().fold(0.0, f64::max).sqrt();
             assert!((largest..2.0 * largest).contains(&largest_frequency(&local.vibration)));
             assert_eq!(super::squares(&local.vibration).len(), squares.len());
+            // The largest entry of a matrix is at most its largest eigenvalue, and at least that over its size.
+            assert!((largest / (squares.len() as f64).sqrt()..=largest).contains(&dense.scale()), "{}", dense.scale());
         }
     }
 }
