@@ -11,7 +11,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use num_dual::{DualNum, first_derivative};
 use tautline::mechanics::{Block, Chain, Element, Hub, Material, Vibration, elastic, flow_stiffness, mass, transfer};
 use tautline::robot::{Damping, Linearisation, Strain, Vec2};
-use tautline::stability::{CriticalSearch, Eigenproblem, Kind, Outcome};
+use tautline::stability::{CriticalSearch, Eigenproblem, Kind, Method, Outcome};
 
 const MATERIAL: Material = Material { axial_stiffness: 6250.0, strain: Strain::Green };
 const MU: f64 = 0.4;
@@ -79,10 +79,12 @@ fn a_damped_travelling_string_is_stable_up_to_the_wave_speed() {
         for damping in damped {
             let what = format!("{n} elements, {linearisation:?}, {damping:?}");
             let vibration = travelling(n, damping, linearisation);
-            let outcome = CriticalSearch::new(2.0 * c).run(&vibration).expect("eigenvalues");
-            let Outcome::Found(critical) = outcome else { panic!("{what}: {outcome:?}") };
-            close(critical.speed, c, 1e-6, &what);
-            assert_eq!(critical.kind, Kind::Divergence, "{what}");
+            for method in [Method::Structured, Method::Dense] {
+                let outcome = CriticalSearch::by(method, 2.0 * c).run(&vibration).expect("eigenvalues");
+                let Outcome::Found(critical) = outcome else { panic!("{what}: {outcome:?}") };
+                close(critical.speed, c, 1e-6, &what);
+                assert_eq!(critical.kind, Kind::Divergence, "{what}");
+            }
         }
     }
 }

@@ -316,4 +316,20 @@ mod tests {
             }
         }
     }
+
+    /// One kind of damping is enough for the search by structure; both methods tell the same kind.
+    #[test]
+    fn only_robots_without_any_damping_are_left_to_the_scan() {
+        for [alpha, beta] in [[0.0, 0.0], [0.1, 0.0], [0.0, 0.002], [0.1, 0.002]] {
+            let robot = Robot::new(RobotSpec { damping: Damping { alpha, beta }, ..paper_spec() }).unwrap();
+            let local = Local::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+            let structured = structured(&local.vibration, 15.0);
+            assert_eq!(structured == Err(Doubt::Undamped), alpha == 0.0 && beta == 0.0, "{structured:?}");
+            let dense = CriticalSearch::by(Method::Dense, 15.0).run(&local.vibration).unwrap();
+            if let (Ok(Outcome::Found(a)), Outcome::Found(b)) = (structured, dense) {
+                assert!((a.speed - b.speed).abs() < 1e-6, "{a:?} {b:?}");
+                assert_eq!((a.kind, a.cable, b.kind), (Kind::Flutter, b.cable, Kind::Flutter));
+            }
+        }
+    }
 }

@@ -407,7 +407,25 @@ fn newton_step(corner: &Corner) -> Option<[f64; 2]> {
 mod tests {
     use super::*;
     use crate::robot::{Motion, paper};
+    use crate::stability::Eigenproblem;
     use crate::study::Local;
+
+    fn local() -> Local {
+        Local::new(&paper().unwrap(), &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
+    }
+
+    fn plane<'a>(bounds: &'a Bounds, function: &'a Characteristic) -> Plane<'a> {
+        Plane {
+            axis: Axis::new(function),
+            bounds,
+            known: HashMap::new(),
+            trend: Trend::default(),
+            zeros: Vec::new(),
+            evaluations: 0,
+            eligible: 0.0,
+            cell: [1.0, 1.0],
+        }
+    }
 
     fn corner(omega: f64, speed: f64) -> Corner {
         let zero = C64::new(0.0, 0.0);
@@ -451,19 +469,9 @@ mod tests {
     /// 2 s² v ω per unit of v, spaced by π over the time that a wave travels.
     #[test]
     fn a_cell_in_which_the_phase_may_turn_is_tall() {
-        let local = Local::new(&paper().unwrap(), &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
-        let bounds = Bounds::new(&local.vibration).unwrap();
-        let function = Characteristic::new(&local.vibration);
-        let mut plane = Plane {
-            axis: Axis::new(&function),
-            bounds: &bounds,
-            known: HashMap::new(),
-            trend: Trend::default(),
-            zeros: Vec::new(),
-            evaluations: 0,
-            eligible: 0.0,
-            cell: [1.0, 1.0],
-        };
+        let local = local();
+        let (bounds, function) = (Bounds::new(&local.vibration).unwrap(), Characteristic::new(&local.vibration));
+        let mut plane = plane(&bounds, &function);
         let height = LARGEST_MOVE * bounds.speed_step(30.0, 8.0);
         for (part, tall) in [(0.99, false), (1.01, true)] {
             let cell = cell([20.0, 30.0], [8.0 - part * height, 8.0]);
@@ -476,6 +484,67 @@ mod tests {
             plane.eligible = eligible;
             let cell = cell([omega * top, 2.0 * top], [7.0, 8.0]);
             assert_eq!(plane.is_eligible(&cell), expected, "{eligible} {omega}");
+        }
+    }
+
+    /// An eigenvalue that crosses moves by −i b per unit of v, its conjugate by the conjugate of that.
+    #[test]
+    fn a_zero_has_the_slope_of_the_eigenvalue() {
+        let local = local();
+        let (bounds, function) = (Bounds::new(&local.vibration).unwrap(), Characteristic::new(&local.vibration));
+        let mut plane = plane(&bounds, &function);
+        let Ok(Search::Crossing { omega, speed }) = first_crossing(&local.vibration, 20.0) else {
+            panic!("no crossing")
+        };
+        let zero = plane.zero_at(omega, speed).unwrap();
+        let dense = Eigenproblem::new(&local.vibration).unwrap();
+        let near = |speed: f64| {
+            let spectrum = dense.spectrum(speed).unwrap();
+            let distance = |l: &C64| (l - C64::new(0.0, omega)).norm();
+            spectrum.eigenvalues().min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+        };
+        let h = 1e-3;
+        let slope = (near(speed + h) - near(speed - h)) / (2.0 * h);
+        let moved = zero.slope * C64::new(0.0, -1.0);
+        assert!((moved - slope).norm() < 1e-4 * slope.norm(), "{moved} {slope}");
+        for (omega, speed) in [(1.0, 9.0), (-2.5, 12.0)] {
+            let [(own, by_speed), (image, image_by_speed)] = zero.factors(omega, speed).collect::<Vec<_>>()[..] else {
+                panic!("two factors")
+            };
+            assert_eq!(own, C64::from(omega - zero.omega) + zero.slope * (speed - zero.speed));
+            let mirrored = zero.factors(-omega, speed).next().unwrap().0;
+            assert_eq!([image, image_by_speed], [-mirrored.conj(), -by_speed.conj()]);
+        }
+        plane.zeros.push(zero);
+        assert!(plane.zero_at(omega, speed).is_none(), "found twice");
+        assert!(plane.zero_at(omega, speed + 0.1).is_some() && plane.zero_at(omega + 0.1, speed).is_some(), "others");
+        // Divided out, nothing of it is left: next to it D is a smooth function.
+        let [left, right] = [-1e-4, 1e-4].map(|aside| plane.at(omega + aside, speed));
+        assert!((left.by_omega - right.by_omega).norm() < 1e-2 * left.by_omega.norm(), "{left:?} {right:?}");
+    }
+
+    /// Corners between two strips are kept, with the new trend in place of the old one.
+    #[test]
+    fn corners_follow_the_trend() {
+        let local = local();
+        let (bounds, function) = (Bounds::new(&local.vibration).unwrap(), Characteristic::new(&local.vibration));
+        let mut plane = plane(&bounds, &function);
+        plane.follow_trend(9.0, 10.0, 30.0);
+        for speed in [9.0, 10.0] {
+            plane.corner(2.0, speed);
+        }
+        plane.follow_trend(10.0, 11.0, 30.0);
+        let kept: Vec<Corner> = plane.known.values().copied().collect();
+        let fresh = plane.at(2.0, 10.0);
+        let [corner] = kept[..] else { panic!("{kept:?}") };
+        for (a, b) in [(corner.log, fresh.log), (corner.by_omega, fresh.by_omega), (corner.by_speed, fresh.by_speed)] {
+            assert!((a - b).norm() < 1e-12 * (1.0 + b.norm()), "{corner:?} {fresh:?}");
+        }
+        // The trend is what D does to the right of the axis: there the two ends of the strip differ by the phase alone.
+        for speed in [10.0, 11.0] {
+            let value = plane.axis.at(30.0.into(), speed);
+            let [trend, slope] = plane.trend.at(speed);
+            assert!((value.log.re - trend).abs() < 1e-9 * trend.abs() && (value.by_speed.re - slope).abs() < 1e-9);
         }
     }
 }

@@ -141,6 +141,15 @@ mod tests {
         Spectrum::new(1.0, Solver::Dense, rounding, values.into(), 1).unwrap()
     }
 
+    #[test]
+    fn a_modes_damping_ratio_and_frequency_are_those_of_an_oscillator() {
+        for (re, im, ratio) in [(-3.0, 4.0, 0.6), (3.0, -4.0, -0.6), (-2.0, 0.0, 1.0), (0.0, 0.0, 0.0)] {
+            let mode = ModeValue { eigenvalue: Complex::new(re, im), multiplicity: 1 };
+            assert!((mode.damping_ratio() - ratio).abs() < 1e-15, "{mode:?}");
+            assert!((mode.frequency_hz() * TAU - im.abs()).abs() < 1e-15, "{mode:?}");
+        }
+    }
+
     /// Of a robot without damping real parts are rounding of the largest frequency.
     #[test]
     fn what_is_rounding_is_not_stable() {
