@@ -337,3 +337,110 @@ impl Estimates {
 fn inverse(z: C64) -> C64 {
     z.conj() / z.norm_sqr()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::{Motion, paper};
+    use crate::study::Local;
+
+    fn spectra() -> Spectra {
+        let local = Local::new(&paper().unwrap(), &Motion::new([2.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+        Spectra::new(&local.vibration).unwrap()
+    }
+
+    fn estimates(values: &[[f64; 2]], paired: bool) -> Estimates {
+        Estimates { values: values.iter().map(|&[re, im]| C64::new(re, im)).collect(), paired }
+    }
+
+    /// One that is there twice or a little off is seen, a slow one as well as a fast one; so is one that is missing.
+    #[test]
+    fn wrong_sets_of_eigenvalues_are_refused() {
+        let mut spectra = spectra();
+        let spectrum = spectra.iterate(5.0).unwrap();
+        let relative = spectrum.rounding(C64::new(3.0, 4.0)) / 5.0;
+        assert!((relative / ITERATED - 1.0).abs() < 1e-12, "{relative}");
+        let found = spectra.last.take().unwrap();
+        assert!(found.paired && spectra.are_all(&found, 5.0));
+        assert!(!spectra.are_all(&found, 5.01), "at another speed");
+        for j in 0..found.values.len() {
+            let mut wrong = found.clone();
+            wrong.values[j] *= 1.0 + 1e-4;
+            assert!(!spectra.are_all(&wrong, 5.0), "{} is off", found.values[j]);
+            let mut wrong = found.clone();
+            wrong.values[j] = found.values[(j + 1) % found.values.len()];
+            assert!(!spectra.are_all(&wrong, 5.0), "{} is missing", found.values[j]);
+        }
+        let mut wrong = found.clone();
+        wrong.values.pop();
+        assert!(!spectra.are_all(&wrong, 5.0), "one is missing");
+    }
+
+    /// At rest the estimates are λ² + (α + β ω̂²) λ + ω̂² = 0, overdamped or not.
+    #[test]
+    fn estimates_at_rest_are_the_roots_for_the_estimated_frequencies() {
+        for beta in [0.002, 0.5] {
+            let spectra = Spectra { beta, ..spectra() };
+            let Estimates { values, paired } = spectra.at_rest();
+            assert_eq!(paired, beta < 0.1);
+            let (sum, product) = (spectra.alpha, spectra.beta);
+            let all = Estimates { values, paired }.all();
+            assert_eq!(all.len(), 2 * spectra.squares.len());
+            if paired {
+                for (pair, square) in all.chunks(2).zip(&spectra.squares) {
+                    let error = (pair[0] * pair[1]).re / square - 1.0;
+                    let damping = (pair[0] + pair[1]).re + sum + product * square;
+                    assert!(error.abs() < 1e-12 && damping.abs() < 1e-12 * (sum + product * square), "{pair:?}");
+                }
+            }
+        }
+        let heavy = Spectra { alpha: 0.0, beta: 2.0, squares: vec![100.0], ..spectra() }.at_rest();
+        // Each is moved a little off its place, by a part of the distance between them.
+        let [a, b] = heavy.values[..] else { panic!("{heavy:?}") };
+        let gap = 198.997_487_4;
+        assert!((a + 199.498_743_7).norm() < 1.2 * SPREAD * gap, "{heavy:?}");
+        assert!((b + 0.501_256_3).norm() < 1.2 * SPREAD * gap, "{heavy:?}");
+    }
+
+    #[test]
+    fn others_are_summed_and_the_nearest_is_found() {
+        let paired = estimates(&[[-1.0, 2.0], [-1.0, 5.0]], true);
+        let z = C64::new(0.0, 1.0);
+        let sum = |others: &[[f64; 2]]| others.iter().map(|&[re, im]| (z - C64::new(re, im)).inv()).sum::<C64>();
+        let others = sum(&[[-1.0, -2.0], [-1.0, 5.0], [-1.0, -5.0]]);
+        assert!((paired.others(0, z) - others).norm() < 1e-14);
+        assert!((paired.gap(0) - 3.0).abs() < 1e-14 && (paired.gap(1) - 3.0).abs() < 1e-14);
+        let apart = estimates(&[[-1.0, 2.0], [-1.0, -2.0], [3.0, 4.0]], false);
+        assert!((apart.others(1, z) - sum(&[[-1.0, 2.0], [3.0, 4.0]])).norm() < 1e-14);
+        assert!((apart.gap(0) - 4.0).abs() < 1e-14);
+        let same = estimates(&[[3.0, 4.0], [3.0, 4.0]], false);
+        assert!((same.gap(0) - 5.0).abs() < 1e-14, "from zero where two are the same");
+    }
+
+    #[test]
+    fn nearly_pairs_become_pairs_and_nearly_real_numbers_real() {
+        let nearly = |off: f64| estimates(&[[-1.0, 2.0 + off], [-30.0, off], [-1.0 + off, -2.0], [-8.0, 0.0]], false);
+        let found = nearly(1e-7).symmetric(1e-7).unwrap().values;
+        assert_eq!(found[0], found[2].conj());
+        assert!(found[1].im == 0.0 && found[3].im == 0.0, "{found:?}");
+        assert!((found[0] - C64::new(-1.0, 2.0)).norm() < 2e-7 && (found[1].re + 30.0).abs() < 2e-7);
+        assert!(nearly(1e-3).symmetric(1e-7).is_none());
+        // A real number is within twice the step of itself, however large the rest is.
+        assert!(estimates(&[[-30.0, 7e-6]], false).symmetric(1e-7).is_none());
+    }
+
+    /// Off their places by a part of the distance to the nearest other one, each in another direction.
+    #[test]
+    fn estimates_apart_are_near_their_places() {
+        let apart = estimates(&[[-1.0, 2.0], [-30.0, 0.0], [-3.0, 9.0]], true).unpaired().values;
+        let places =
+            [[-1.0, 2.0], [-1.0, -2.0], [-30.0, 0.0], [-3.0, 9.0], [-3.0, -9.0]].map(|[re, im]| C64::new(re, im));
+        assert_eq!(apart.len(), places.len());
+        let moved: Vec<C64> = apart.iter().zip(places).map(|(z, place)| z - place).collect();
+        for (j, off) in moved.iter().enumerate() {
+            let others = (0..5).filter(|&k| k != j).map(|k| (places[k] - places[j]).norm());
+            let gap = others.fold(f64::INFINITY, f64::min);
+            assert!((1e-4 * gap..1.2 * SPREAD * gap).contains(&off.norm()), "{off} of {gap}");
+        }
+    }
+}
