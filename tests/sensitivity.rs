@@ -18,8 +18,8 @@ const SLOWEST: f64 = 0.5;
 /// Critical speeds and frequencies are good to this part of them: a scan refines to 1e-9 m/s (the search by structure to
 /// far less) and gives the middle, half of that off; frequencies change about as much as speeds do, at most twice.
 const SEARCHED: f64 = 2.0 * 0.5e-9 / SLOWEST;
-/// The step of the differences in ln p.
-const STEP: f64 = 2e-3;
+/// The smallest step of the differences in ln p.
+const STEP: f64 = 1e-3;
 /// Up to this speed in m/s critical speeds are searched for.
 const LIMIT: f64 = 40.0;
 
@@ -55,12 +55,12 @@ fn turned(robot: &Robot, knob: Knob, s: f64) -> Robot {
 
 /// d ln v/d ln p and d ln ω/d ln p by Richardson's extrapolation of central differences over h and 2h, each with what it
 /// may be off: the noise of the searches over h (the weights are 4/3 · 1/2h twice and 1/3 · 1/4h twice), and of the
-/// truncation. The leading term of that, in h², is a third of what the two differences differ by, and is gone; the rest
-/// is smaller by about h² f⁗′/f‴, for which a twentieth of that difference leaves h² f⁗′/f‴ = 0.15. `None` where another
-/// mode crosses first somewhere.
+/// truncation. That is of h⁴ and a fifteenth of what the extrapolation over 2h and 4h differs by; that difference bounds it
+/// for as long as half the step leaves no more than half of it, which steps too large for a curve's bends do as well.
+/// `None` where another mode crosses first somewhere.
 fn differences(robot: &Robot, motion: &Motion, at: &Critical, knob: Knob) -> Option<[(f64, f64); 2]> {
-    let mut logarithms = [[0.0; 2]; 4];
-    for (k, step) in [-2.0, -1.0, 1.0, 2.0].into_iter().enumerate() {
+    let mut logarithms = [[0.0; 2]; 6];
+    for (k, step) in [-4.0, -2.0, -1.0, 1.0, 2.0, 4.0].into_iter().enumerate() {
         let beside = critical(&turned(robot, knob, step * STEP), motion)?;
         let frequency = beside.eigenvalue.im / at.eigenvalue.im;
         // A frequency that moves by a tenth in so small a step is that of another mode.
@@ -70,9 +70,11 @@ fn differences(robot: &Robot, motion: &Motion, at: &Critical, knob: Knob) -> Opt
         logarithms[k] = [(beside.speed / at.speed).ln(), if at.kind == Kind::Flutter { frequency.ln() } else { 0.0 }];
     }
     Some([0, 1].map(|i| {
-        let [a, b, c, d] = logarithms.map(|pair| pair[i]);
-        let (near, far) = ((c - b) / (2.0 * STEP), (d - a) / (4.0 * STEP));
-        ((4.0 * near - far) / 3.0, 1.5 * SEARCHED / STEP + 0.05 * (near - far).abs())
+        let values = logarithms.map(|pair| pair[i]);
+        let [near, middle, far] = [(2, 3, 1.0), (1, 4, 2.0), (0, 5, 4.0)]
+            .map(|(from, to, steps)| (values[to] - values[from]) / (2.0 * steps * STEP));
+        let (fine, coarse) = ((4.0 * near - middle) / 3.0, (4.0 * middle - far) / 3.0);
+        (fine, 1.5 * SEARCHED / STEP + (fine - coarse).abs())
     }))
 }
 

@@ -316,6 +316,13 @@ mod tests {
         }
     }
 
+    /// At rest everything decays that is damped both ways.
+    #[test]
+    fn nothing_is_unstable_at_rest() {
+        let bounds = some_bounds(0.4, 0.02);
+        assert!(bounds.largest_unstable(0.0) < 1e-6 * bounds.lowest.sqrt());
+    }
+
     /// Where the flow jumps between elements the integrals by parts have further terms.
     #[test]
     fn there_are_no_bounds_where_the_flow_jumps() {

@@ -317,6 +317,46 @@ mod tests {
         }
     }
 
+    /// The scan looks every 0.1 m/s; it says how far it has come and why it was asked.
+    #[test]
+    fn a_search_tells_how_far_it_has_come_and_why_it_scans() {
+        let local = |damping| {
+            let robot = Robot::new(RobotSpec { damping, ..paper_spec() }).unwrap();
+            Local::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
+        };
+        let damped = local(paper_spec().damping);
+        let mut scan = CriticalSearch::by(Method::Dense, 0.25);
+        assert_eq!((scan.searched_up_to(), scan.doubt()), (0.0, None));
+        for (speed, outcome) in [(0.0, None), (0.1, None), (0.2, None), (0.25, Some(Outcome::NoneUpTo(0.25)))] {
+            assert_eq!(scan.advance(&damped.vibration), Ok(outcome), "{speed}");
+            assert!((scan.searched_up_to() - speed).abs() < 1e-12, "{} instead of {speed}", scan.searched_up_to());
+        }
+        assert_eq!(scan.doubt(), None);
+        // The search by structure answers at once.
+        let mut structured = CriticalSearch::new(5.0);
+        assert_eq!(structured.advance(&damped.vibration), Ok(Some(Outcome::NoneUpTo(5.0))));
+        assert_eq!((structured.samples(), structured.doubt()), (&[][..], None));
+        let undamped = local(Damping { alpha: 0.0, beta: 0.0 });
+        let mut left_to_the_scan = CriticalSearch::new(5.0);
+        assert_eq!(left_to_the_scan.advance(&undamped.vibration), Ok(None));
+        assert_eq!(left_to_the_scan.doubt(), Some(Doubt::Undamped));
+    }
+
+    /// Where rounding hides on which side of the crossing the limit is, the crossing's place decides.
+    #[test]
+    fn a_crossing_beyond_the_limit_is_not_found() {
+        let local =
+            Local::new(&Robot::new(paper_spec()).unwrap(), &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+        let Ok(Outcome::Found(Critical { speed, .. })) = structured(&local.vibration, 15.0) else {
+            panic!("no critical speed")
+        };
+        for aside in [2.0, 5.0, 20.0].map(|part| part * REFINED_TO) {
+            let up_to = |limit| CriticalSearch::by(Method::Dense, limit).run(&local.vibration).unwrap();
+            assert_eq!(up_to(speed - aside), Outcome::NoneUpTo(speed - aside));
+            assert!(matches!(up_to(speed + aside), Outcome::Found(_)), "{aside}");
+        }
+    }
+
     /// One kind of damping is enough for the search by structure; both methods tell the same kind.
     #[test]
     fn only_robots_without_any_damping_are_left_to_the_scan() {

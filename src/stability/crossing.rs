@@ -450,6 +450,19 @@ mod tests {
         }
     }
 
+    /// One step leads to the zero of a function that is linear in ω and v.
+    #[test]
+    fn a_newton_step_ends_where_a_linear_function_is_zero() {
+        let (p, q) = (C64::new(2.0, -1.0), C64::new(0.5, 3.0));
+        for step in [[0.3, -0.2], [-4.0, 0.1], [0.0, 5.0]] {
+            let value = -(p * step[0] + q * step[1]);
+            let corner = Corner { by_omega: p / value, by_speed: q / value, ..corner(7.0, 9.0) };
+            let found = newton_step(&corner).unwrap();
+            assert!((0..2).all(|i| (found[i] - step[i]).abs() < 1e-14 * 5.0), "{found:?}, not {step:?}");
+        }
+        assert_eq!(newton_step(&corner(7.0, 9.0)), None);
+    }
+
     #[test]
     fn near_a_cell_is_half_its_size() {
         let cell = cell([1.0, 3.0], [2.0, 6.0]);

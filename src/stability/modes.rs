@@ -88,7 +88,7 @@ pub(super) fn frequency_scale(vibration: &Vibration) -> f64 {
 }
 
 /// Displacements of the hub and of the chains' inner nodes.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 struct Shape {
     hub: Displacement,
     hub_moves: bool,
@@ -197,7 +197,8 @@ impl<'a> Factors<'a> {
 fn invert(matrix: Matrix2<C64>) -> Matrix2<C64> {
     let size = matrix.iter().fold(0.0_f64, |size, part| size.max(part.re.abs()).max(part.im.abs()));
     if size > LARGE || (size > 0.0 && size < 1.0 / LARGE) {
-        return invert(matrix / C64::from(size)) / C64::from(size);
+        // Part by part: a complex quotient has the square of the size in it.
+        return invert(matrix.map(|entry| entry / size)).map(|entry| entry / size);
     }
     matrix.try_inverse().unwrap_or_else(|| {
         let nudge = matrix.map(C64::norm).amax().max(f64::MIN_POSITIVE) * f64::EPSILON;
@@ -256,5 +257,45 @@ impl Shape {
             chain.elements.iter().enumerate().map(element).sum()
         };
         (platform, vibration.chains.iter().zip(self.per_cable()).map(cable).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn inverses_are_found_over_the_whole_range_of_floating_point() {
+        let number = C64::new;
+        let matrix = Matrix2::new(number(2.0, 1.0), number(0.5, -3.0), number(-1.0, 0.0), number(4.0, 2.0));
+        let inverse = matrix.try_inverse().unwrap();
+        for size in [1e-300, 1e-160, 1e-80, 1.0, 1e80, 1e160, 1e300] {
+            let found = invert(matrix * C64::from(size)) * C64::from(size);
+            assert!((found - inverse).norm() < 1e-14 * inverse.norm(), "{size:e}: {found} instead of {inverse}");
+        }
+    }
+
+    /// What a singular matrix leaves of a vector is its null vector, the larger the nearer to singular.
+    #[test]
+    fn of_a_singular_matrix_the_null_vector_is_left() {
+        let number = |x: f64| C64::new(x, 0.0);
+        for size in [1e-40, 1.0, 1e40] {
+            let left = invert(Matrix2::repeat(number(size))) * Displacement::new(number(size), number(0.0));
+            assert!(left.norm() > 1e12, "{left}");
+            assert!((left / left.x - Displacement::new(number(1.0), number(-1.0))).norm() < 1e-12, "{left}");
+        }
+    }
+
+    #[test]
+    fn the_largest_component_becomes_one() {
+        for size in [1e-300, 1e-90, 1e-3, 1.0, 1e3, 1e90, 1e300].map(|size| C64::from_polar(size, 0.7)) {
+            let d = |x: f64, y: f64| Displacement::new(size * x, size * y);
+            let mut shape =
+                Shape { hub: d(0.1, 0.2), hub_moves: true, inner: vec![vec![d(0.3, -1.0)], vec![d(0.0, 0.5)]] };
+            shape.normalise();
+            let expected = [0.1, 0.2, 0.3, -1.0, 0.0, 0.5].map(|part| C64::from(-part));
+            let error = shape.values().zip(expected).map(|(found, part)| (found - part).norm()).fold(0.0, f64::max);
+            assert!(error < 1e-14, "{size:e}: {shape:?}");
+        }
     }
 }
