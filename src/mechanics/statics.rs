@@ -487,6 +487,21 @@ mod tests {
         }
     }
 
+    /// Of 5 N and 2 m, and of 13 N and 4 m.
+    #[test]
+    fn a_change_is_measured_in_parts_of_forces_and_lengths() {
+        let z = SVector::from([3.0, -4.0, 2.0, 5.0, 12.0, 4.0]);
+        for (change, part) in [
+            ([0.6, 0.8, 0.1, 0.1, 0.0, 0.2], 0.2),
+            ([0.0, 0.1, -0.6, 0.1, 0.0, 0.2], 0.3),
+            ([0.0, 0.1, 0.6, -1.2, 5.0 * 1.04, 0.2], 5.336_665_625_65 / 13.0),
+            ([0.0, 0.1, 0.6, 0.1, 0.5, 2.0], 0.5),
+        ] {
+            let found = relative(&SVector::from(change), &z);
+            assert!((found - part).abs() < 1e-9, "{found}, not {part}");
+        }
+    }
+
     #[test]
     fn a_law_without_tension_is_named() {
         let mut spec = paper_spec();

@@ -376,6 +376,17 @@ mod tests {
         assert!(!spectra.are_all(&wrong, 5.0), "one is missing");
     }
 
+    /// After too many failures the dense solver answers, and the iteration goes on from there.
+    #[test]
+    fn the_dense_solver_steps_in() {
+        let local = Local::new(&paper().unwrap(), &Motion::new([2.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+        let expected = spectra().iterate(5.0).unwrap();
+        let mut spectra = Spectra { failures: PATIENCE, ..spectra() };
+        let found = spectra.spectrum(&local.vibration, 5.0).unwrap();
+        assert!(spectra.dense.is_some());
+        assert!((found.rightmost() - expected.rightmost()).norm() < 1e-12, "{found:?}");
+    }
+
     /// At rest the estimates are λ² + (α + β ω̂²) λ + ω̂² = 0, overdamped or not.
     #[test]
     fn estimates_at_rest_are_the_roots_for_the_estimated_frequencies() {

@@ -365,6 +365,9 @@ mod tests {
             let local = Local::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
             let structured = structured(&local.vibration, 15.0);
             assert_eq!(structured == Err(Doubt::Undamped), alpha == 0.0 && beta == 0.0, "{structured:?}");
+            if alpha + beta > 0.0 {
+                assert!(matches!(structured, Ok(Outcome::Found(_))), "{structured:?}");
+            }
             let dense = CriticalSearch::by(Method::Dense, 15.0).run(&local.vibration).unwrap();
             if let (Ok(Outcome::Found(a)), Outcome::Found(b)) = (structured, dense) {
                 assert!((a.speed - b.speed).abs() < 1e-6, "{a:?} {b:?}");
