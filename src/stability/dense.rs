@@ -146,3 +146,32 @@ fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
         Some(schur.complex_eigenvalues().iter().map(|s| s - shift).collect())
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::robot::{Motion, paper};
+    use crate::stability::Spectra;
+    use crate::study::Local;
+
+    /// What rounding may do covers what it does to the eigenvalues, which the iteration by structure knows better, and not
+    /// much more. In a unit of time half as long it is half of that.
+    #[test]
+    fn rounding_is_that_of_the_matrix() {
+        let Local { vibration, .. } =
+            Local::new(&paper().unwrap(), &Motion::new([2.0, 0.5], [1.0, 0.0], 5.0).unwrap()).unwrap();
+        let of = |vibration: &Vibration, speed| Eigenproblem::new(vibration).unwrap().spectrum(speed).unwrap();
+        let (found, exact) = (of(&vibration, 5.0), Spectra::new(&vibration).unwrap().iterate(5.0).unwrap());
+        let off = |value: Complex<f64>| {
+            let nearest = found.eigenvalues().map(|other| (other - value).norm());
+            nearest.fold(f64::INFINITY, f64::min)
+        };
+        let (off, claimed) = (exact.eigenvalues().map(off).fold(0.0, f64::max), found.rounding(Complex::from(0.0)));
+        assert!(off < claimed && claimed < 100.0 * off, "{off:e} off, {claimed:e} claimed");
+        let mut faster = vibration.clone();
+        faster.damping = Damping { alpha: 2.0 * faster.damping.alpha, beta: 0.5 * faster.damping.beta };
+        faster.chains.iter_mut().flat_map(|chain| &mut chain.elements).for_each(|element| element.elastic *= 4.0);
+        let half = 0.5 * of(&faster, 10.0).rounding(Complex::from(0.0));
+        assert!((half - claimed).abs() < 1e-12 * claimed, "{half:e} {claimed:e}");
+    }
+}

@@ -263,6 +263,8 @@ impl Shape {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robot::{Motion, paper};
+    use crate::study::Local;
 
     #[test]
     fn inverses_are_found_over_the_whole_range_of_floating_point() {
@@ -284,6 +286,15 @@ mod tests {
             assert!(left.norm() > 1e12, "{left}");
             assert!((left / left.x - Displacement::new(number(1.0), number(-1.0))).norm() < 1e-12, "{left}");
         }
+    }
+
+    #[test]
+    fn a_shape_out_of_range_is_zero() {
+        let robot = paper().unwrap();
+        let local = Local::new(&robot, &Motion::new([2.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+        let mode = mode(&local.vibration, 5.0, C64::new(0.0, 1e200), Polarisation::default());
+        assert!(mode.displacement.iter().flatten().all(|d| *d == Displacement::zeros()), "{mode:?}");
+        assert_eq!((mode.platform_share, mode.cable_share), (0.0, vec![0.0; 4]));
     }
 
     #[test]

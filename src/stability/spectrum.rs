@@ -156,6 +156,7 @@ mod tests {
         let rounding = 400.0 * ROUNDING;
         for (growth, stable) in [(-1.0, true), (-1.1 * rounding, true), (-0.9 * rounding, false), (rounding, false)] {
             assert_eq!(spectrum(growth).is_stable(), stable, "{growth}");
+            assert_eq!((spectrum(growth).growth_rate(), spectrum(growth).speed()), (growth, 1.0));
         }
     }
 
