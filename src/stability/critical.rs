@@ -332,6 +332,8 @@ mod tests {
             assert!((scan.searched_up_to() - speed).abs() < 1e-12, "{} instead of {speed}", scan.searched_up_to());
         }
         assert_eq!(scan.doubt(), None);
+        let growth: Vec<f64> = scan.samples().iter().map(|sample| sample.growth_rate).collect();
+        assert!(growth.len() == 4 && growth.iter().all(|&rate| rate < 0.0), "{growth:?}");
         // The search by structure answers at once.
         let mut structured = CriticalSearch::new(5.0);
         assert_eq!(structured.advance(&damped.vibration), Ok(Some(Outcome::NoneUpTo(5.0))));
