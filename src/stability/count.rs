@@ -139,6 +139,7 @@ mod tests {
         let changed = change((along + 1.0) * 1.5, along, along * 2.0 + 3.0);
         assert!((changed - 10.0_f64.sqrt() / LARGEST_CHANGE).abs() < 1e-12, "{changed}");
         assert!(change(difference, from.inv(), C64::new(f64::NAN, 0.0)).is_infinite());
+        assert!(change(C64::new(f64::NAN, 0.0), along, along).is_infinite());
     }
 
     /// At every speed as many as the dense solver finds, and none beyond the bound.
