@@ -465,25 +465,27 @@ mod tests {
         assert_eq!(beyond, Infeasible::GoesSlack { cable: 0 }.into());
     }
 
-    /// Two cables pull down against a third, one twice as long as the other, at equal angles: the heavier they are, the less
-    /// is left for them to pull with. It is the longer one that sags to its end first.
+    /// Two cables pull down against a third: the heavier they are, the less is left for them to pull with. Of two at equal
+    /// angles the longer one sags to its end first, of two at different angles the flatter one, which pulls less.
     #[test]
-    fn of_two_cables_under_one_force_the_longer_one_goes_slack() {
-        for (slack, lengths) in [(0, [2.0, 1.0]), (1, [1.0, 2.0])] {
-            let cable = |x, y, tension| Cable { anchor: Vec2::new(x, y), tension };
+    fn the_cable_with_the_smaller_tension_for_its_length_goes_slack() {
+        for (slack, anchors) in
+            [(0, [[-2.0, -2.0], [1.0, -1.0]]), (1, [[-1.0, -1.0], [2.0, -2.0]]), (1, [[-0.5, -2.0], [1.0, -1.0]])]
+        {
+            let cable = |[x, y]: [f64; 2], tension| Cable { anchor: Vec2::new(x, y), tension };
             let cables = vec![
-                cable(-lengths[0], -lengths[0], TensionLaw::Equilibrium),
-                cable(lengths[1], -lengths[1], TensionLaw::Equilibrium),
-                cable(0.0, 5.0, TensionLaw::Constant(20.0)),
+                cable(anchors[0], TensionLaw::Equilibrium),
+                cable(anchors[1], TensionLaw::Equilibrium),
+                cable([0.0, 5.0], TensionLaw::Constant(20.0)),
             ];
             let robot = |mass_per_length| {
                 let spec = RobotSpec { mass_per_length, platform_mass: 0.1, cables: cables.clone(), ..paper_spec() };
                 Robot::new(spec).expect("a legal robot")
             };
-            // 19 N are for them, half of their 4.24 m hangs from the platform.
-            assert!(solve(&robot(0.1), Vec2::zeros()).is_ok(), "2 N");
-            let reason = solve(&robot(1.0), Vec2::zeros()).expect_err("21 N").reason;
-            assert_eq!(reason, Infeasible::GoesSlack { cable: slack }.into());
+            // 19 N are for them, and half of what they weigh hangs from the platform: 2 N, and 20 N or more.
+            assert!(solve(&robot(0.1), Vec2::zeros()).is_ok(), "{anchors:?}");
+            let reason = solve(&robot(1.2), Vec2::zeros()).expect_err("no force left").reason;
+            assert_eq!(reason, Infeasible::GoesSlack { cable: slack }.into(), "{anchors:?}");
         }
     }
 

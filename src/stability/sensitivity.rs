@@ -233,6 +233,9 @@ mod tests {
         assert_eq!(reason(&[4.0, 4.0], 2.0, 5.0), NoSensitivity::NotSimple);
         assert_eq!(reason(&[4.0, 4.0 * (1.0 + 1e-8)], 2.0, 5.0), NoSensitivity::NotSimple);
         assert_eq!(reason(&[4.0, 9.0], 2.1, 5.0), NoSensitivity::NotSimple);
+        // Three times as far away as counts.
+        let beside = oscillators(&[4.0, 4.0 * (1.0 + 6.0 * ALONE)]);
+        assert!(Crossing::new(&beside, &critical(2.0, 5.0)).is_ok(), "alone");
         assert_eq!(reason(&[4.0, 9.0], 2.0, 0.0), NoSensitivity::FromRest);
         // Nothing depends on the speed.
         let mut still = oscillators(&[4.0, 9.0]);
