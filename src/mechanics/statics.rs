@@ -469,9 +469,12 @@ mod tests {
     /// angles the longer one sags to its end first, of two at different angles the flatter one, which pulls less.
     #[test]
     fn the_cable_with_the_smaller_tension_for_its_length_goes_slack() {
-        for (slack, anchors) in
-            [(0, [[-2.0, -2.0], [1.0, -1.0]]), (1, [[-1.0, -1.0], [2.0, -2.0]]), (1, [[-0.5, -2.0], [1.0, -1.0]])]
-        {
+        for (slack, anchors) in [
+            (0, [[-2.0, -2.0], [1.0, -1.0]]),
+            (1, [[-1.0, -1.0], [2.0, -2.0]]),
+            (1, [[-0.5, -2.0], [1.0, -1.0]]),
+            (0, [[-1.0, -1.0], [0.5, -2.0]]),
+        ] {
             let cable = |[x, y]: [f64; 2], tension| Cable { anchor: Vec2::new(x, y), tension };
             let cables = vec![
                 cable(anchors[0], TensionLaw::Equilibrium),

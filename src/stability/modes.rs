@@ -305,7 +305,9 @@ mod tests {
                 Shape { hub: d(0.1, 0.2), hub_moves: true, inner: vec![vec![d(0.3, -1.0)], vec![d(0.0, 0.5)]] };
             shape.normalise();
             let expected = [0.1, 0.2, 0.3, -1.0, 0.0, 0.5].map(|part| C64::from(-part));
-            let error = shape.values().zip(expected).map(|(found, part)| (found - part).norm()).fold(0.0, f64::max);
+            let found: Vec<C64> = shape.values().copied().collect();
+            assert_eq!(found.len(), expected.len());
+            let error = found.iter().zip(expected).map(|(found, part)| (found - part).norm()).fold(0.0, f64::max);
             assert!(error < 1e-14, "{size:e}: {shape:?}");
         }
     }
