@@ -344,9 +344,12 @@ mod tests {
     use crate::robot::{Motion, paper};
     use crate::study::Local;
 
+    fn local() -> Local {
+        Local::new(&paper().unwrap(), &Motion::new([2.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
+    }
+
     fn spectra() -> Spectra {
-        let local = Local::new(&paper().unwrap(), &Motion::new([2.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
-        Spectra::new(&local.vibration).unwrap()
+        Spectra::new(&local().vibration).unwrap()
     }
 
     fn estimates(values: &[[f64; 2]], paired: bool) -> Estimates {
@@ -379,10 +382,9 @@ mod tests {
     /// After too many failures the dense solver answers, and the iteration goes on from there.
     #[test]
     fn the_dense_solver_steps_in() {
-        let local = Local::new(&paper().unwrap(), &Motion::new([2.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
         let expected = spectra().iterate(5.0).unwrap();
         let mut spectra = Spectra { failures: PATIENCE, ..spectra() };
-        let found = spectra.spectrum(&local.vibration, 5.0).unwrap();
+        let found = spectra.spectrum(&local().vibration, 5.0).unwrap();
         assert!(spectra.dense.is_some());
         assert!((found.rightmost() - expected.rightmost()).norm() < 1e-12, "{found:?}");
     }
