@@ -107,7 +107,63 @@ pub struct Fault {
     /// The value found, as text; [`Fault::MISSING`] where there is none.
     pub value: String,
     /// What is allowed.
-    pub allowed: String,
+    pub allowed: Allowed,
+}
+
+/// What may stand in a field. Written out, it speaks of a scenario file's fields; programs that have other words for
+/// them find here what they need.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Allowed {
+    /// A finite number.
+    Finite,
+    /// A finite number greater than 0.
+    Positive,
+    /// A finite number, 0 or more.
+    NotNegative {
+        /// What to do instead of a negative one; empty where there is nothing.
+        instead: &'static str,
+    },
+    /// A whole number of this range.
+    Whole(std::ops::RangeInclusive<usize>),
+    /// A number whose products with those at these paths are within the range of floating-point numbers.
+    ProductsWith(&'static [&'static str]),
+    /// Another point than the anchor of this cable (0-based).
+    OtherThanAnchor(usize),
+    /// Something else, in words.
+    Words(String),
+}
+
+impl fmt::Display for Allowed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Finite => f.write_str("a finite number"),
+            Self::Positive => f.write_str("a finite number greater than 0"),
+            Self::NotNegative { instead: "" } => f.write_str("a finite number, 0 or more"),
+            Self::NotNegative { instead } => write!(f, "a finite number, 0 or more ({instead})"),
+            Self::Whole(range) => write!(f, "a whole number from {} to {}", range.start(), range.end()),
+            Self::ProductsWith([path]) => {
+                write!(f, "a value whose product with {path} is within the range of floating-point numbers")
+            }
+            Self::ProductsWith(paths) => {
+                let paths = paths.join(" and ");
+                write!(f, "a value whose products with {paths} are within the range of floating-point numbers")
+            }
+            Self::OtherThanAnchor(cable) => write!(f, "a point that differs from cables[{cable}].anchor"),
+            Self::Words(words) => f.write_str(words),
+        }
+    }
+}
+
+impl From<&str> for Allowed {
+    fn from(words: &str) -> Self {
+        Self::Words(words.into())
+    }
+}
+
+impl From<String> for Allowed {
+    fn from(words: String) -> Self {
+        Self::Words(words)
+    }
 }
 
 impl Fault {
@@ -115,12 +171,12 @@ impl Fault {
     pub const MISSING: &'static str = "missing";
 
     /// A fault at `path`, where `value` was found and `allowed` says what may stand there.
-    pub fn new(path: impl Into<String>, value: impl fmt::Display, allowed: impl Into<String>) -> Self {
+    pub fn new(path: impl Into<String>, value: impl fmt::Display, allowed: impl Into<Allowed>) -> Self {
         Self { path: path.into(), value: value.to_string(), allowed: allowed.into() }
     }
 
     /// The same for a number; very large and very small ones get an exponent instead of hundreds of digits.
-    fn number(path: impl Into<String>, value: f64, allowed: impl Into<String>) -> Self {
+    fn number(path: impl Into<String>, value: f64, allowed: Allowed) -> Self {
         Self::new(path, format_args!("{value:?}"), allowed)
     }
 }
@@ -147,34 +203,34 @@ impl Robot {
     /// at equilibrium, a constant tension that is not positive, coincident anchors, elements outside 2..=200.
     pub fn new(spec: RobotSpec) -> Result<Self, Faults> {
         let mut faults = Vec::new();
-        let mut check = |path: &str, value: f64, ok: bool, allowed: &str| {
+        let mut check = |path: &str, value: f64, ok: bool, allowed: Allowed| {
             if !(ok && value.is_finite()) {
                 faults.push(Fault::number(path, value, allowed));
             }
         };
-        let not_negative = "a finite number, 0 or more";
-        let positive = "a finite number greater than 0";
-        check("gravity", spec.gravity, spec.gravity >= 0.0, not_negative);
-        check("cable.youngs_modulus", spec.youngs_modulus, spec.youngs_modulus > 0.0, positive);
-        check("cable.area", spec.area, spec.area > 0.0, positive);
-        check("cable.mass_per_length", spec.mass_per_length, spec.mass_per_length > 0.0, positive);
-        check("platform.mass", spec.platform_mass, spec.platform_mass > 0.0, positive);
-        check("damping.alpha", spec.damping.alpha, spec.damping.alpha >= 0.0, not_negative);
-        check("damping.beta", spec.damping.beta, spec.damping.beta >= 0.0, not_negative);
+        let not_negative = || Allowed::NotNegative { instead: "" };
+        let positive = || Allowed::Positive;
+        check("gravity", spec.gravity, spec.gravity >= 0.0, not_negative());
+        check("cable.youngs_modulus", spec.youngs_modulus, spec.youngs_modulus > 0.0, positive());
+        check("cable.area", spec.area, spec.area > 0.0, positive());
+        check("cable.mass_per_length", spec.mass_per_length, spec.mass_per_length > 0.0, positive());
+        check("platform.mass", spec.platform_mass, spec.platform_mass > 0.0, positive());
+        check("damping.alpha", spec.damping.alpha, spec.damping.alpha >= 0.0, not_negative());
+        check("damping.beta", spec.damping.beta, spec.damping.beta >= 0.0, not_negative());
         for (i, cable) in spec.cables.iter().enumerate() {
             for (j, &coordinate) in cable.anchor.iter().enumerate() {
-                check(&format!("cables[{i}].anchor[{j}]"), coordinate, true, "a finite number");
+                check(&format!("cables[{i}].anchor[{j}]"), coordinate, true, Allowed::Finite);
             }
             match cable.tension {
                 TensionLaw::Equilibrium => {}
                 TensionLaw::Constant(tension) => {
-                    check(&format!("cables[{i}].tension.constant"), tension, tension > 0.0, positive);
+                    check(&format!("cables[{i}].tension.constant"), tension, tension > 0.0, positive());
                 }
                 TensionLaw::Hypot { horizontal, vertical } => {
                     for (name, coefficients) in [("horizontal", horizontal), ("vertical", vertical)] {
                         for (j, coefficient) in coefficients.into_iter().enumerate() {
                             let path = format!("cables[{i}].tension.{name}[{j}]");
-                            check(&path, coefficient, true, "a finite number");
+                            check(&path, coefficient, true, Allowed::Finite);
                         }
                     }
                 }
@@ -184,8 +240,7 @@ impl Robot {
             check_products(&spec, &mut faults);
         }
         if !ELEMENTS.contains(&spec.elements) {
-            let allowed = format!("a whole number from {} to {}", ELEMENTS.start(), ELEMENTS.end());
-            faults.push(Fault::new("elements_per_cable", spec.elements, allowed));
+            faults.push(Fault::new("elements_per_cable", spec.elements, Allowed::Whole(ELEMENTS)));
         }
         let pair = check_cables(&spec.cables, &mut faults);
         match (pair, faults.is_empty()) {
@@ -227,11 +282,11 @@ impl std::ops::Deref for Robot {
 fn check_products(spec: &RobotSpec, faults: &mut Vec<Fault>) {
     let stiffness = spec.youngs_modulus * spec.area;
     if !stiffness.is_normal() {
-        let allowed = "a value whose product with cable.area is within the range of floating-point numbers";
+        let allowed = Allowed::ProductsWith(&["cable.area"]);
         faults.push(Fault::number("cable.youngs_modulus", spec.youngs_modulus, allowed));
     }
     if !(spec.mass_per_length * spec.gravity).is_finite() || !(spec.platform_mass * spec.gravity).is_finite() {
-        let allowed = "a value whose products with the masses are within the range of floating-point numbers";
+        let allowed = Allowed::ProductsWith(&["cable.mass_per_length", "platform.mass"]);
         faults.push(Fault::number("gravity", spec.gravity, allowed));
     }
 }
@@ -247,8 +302,7 @@ fn check_cables(cables: &[Cable], faults: &mut Vec<Fault>) -> Option<[usize; 2]>
         for (i, a) in cables[..j].iter().enumerate() {
             if (a.anchor - b.anchor).norm() < COINCIDENT {
                 let value = format!("[{:?}, {:?}]", b.anchor.x, b.anchor.y);
-                let allowed = format!("a point that differs from cables[{i}].anchor");
-                faults.push(Fault::new(format!("cables[{j}].anchor"), value, allowed));
+                faults.push(Fault::new(format!("cables[{j}].anchor"), value, Allowed::OtherThanAnchor(i)));
             }
         }
     }
@@ -281,11 +335,11 @@ impl Motion {
         let mut faults = Vec::new();
         for (name, vector) in [("position", position), ("direction", direction)] {
             for (j, coordinate) in vector.iter().enumerate().filter(|(_, c)| !c.is_finite()) {
-                faults.push(Fault::number(format!("motion.{name}[{j}]"), *coordinate, "a finite number"));
+                faults.push(Fault::number(format!("motion.{name}[{j}]"), *coordinate, Allowed::Finite));
             }
         }
         if !(speed.is_finite() && speed >= 0.0) {
-            let allowed = "a finite number, 0 or more (turn the direction round to go back)";
+            let allowed = Allowed::NotNegative { instead: "turn the direction round to go back" };
             faults.push(Fault::number("motion.speed", speed, allowed));
         }
         // A unit vector stays as it is, so that a motion that is written and read again is the same to the last bit.

@@ -178,7 +178,10 @@ fn forged_links_get_the_errors_of_files() {
     // More cables than are allowed, and elements by the billion.
     let nine = [&CABLES[..], &CABLES[..], &CABLES[..1]].concat();
     let faults = not_physical(&around(&with_cables(&[9], &nine)));
-    assert!(faults.0.iter().any(|fault| fault.value == "a list of 9" && fault.allowed == "3 to 8 cables"), "{faults}");
+    assert!(
+        faults.0.iter().any(|fault| fault.value == "a list of 9" && fault.allowed == "3 to 8 cables".into()),
+        "{faults}"
+    );
     let mut many = paper();
     many.elements_per_cable = usize::MAX;
     let faults = not_physical(&link::encode(&many));

@@ -4,8 +4,9 @@ use eframe::egui::Context;
 
 use super::export::{self, Content};
 use super::state::Document;
-use super::{Command, Notice, Tautline};
+use super::{Command, Notice, Tautline, fields, number};
 use crate::compute::protocol::Request;
+use crate::scenario::report::sentence;
 use crate::scenario::{Scenario, link};
 
 impl Tautline {
@@ -96,14 +97,15 @@ impl Tautline {
 
     /// Takes a document over, where it is physical; else says why not and keeps the last good one.
     fn edit(&mut self, document: Document) {
-        if let Err(faults) = document.scenario.to_robot() {
-            self.complain(faults.to_string());
+        if let Err(reason) = fields::check(&document.scenario, self.state.settings) {
+            self.complain(sentence(&reason));
             return;
         }
         self.notice = None;
         let changed = document.scenario != self.present.document.scenario;
         self.present.document = document;
         if changed {
+            number::forget_message(&self.context);
             self.losses = 0;
             self.analyze();
         }

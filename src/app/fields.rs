@@ -1,7 +1,8 @@
 //! The numbers of a scenario that can be turned: name, unit, range, meaning, where they live.
 
+use crate::app::number::{self, Unit};
 use crate::app::state::{Settings, StressUnit};
-use crate::robot::TensionLaw;
+use crate::robot::{Allowed, ELEMENTS, Fault, Faults, TensionLaw};
 use crate::scenario::Scenario;
 
 /// A number of the scenario with its control.
@@ -13,8 +14,6 @@ pub struct Field {
     pub symbol: &'static str,
     /// The unit people use.
     pub unit: &'static str,
-    /// SI units per displayed unit.
-    pub factor: f64,
     /// The slider's range in displayed units; typed values may go beyond.
     pub range: [f64; 2],
     /// Whether equal steps of the slider are equal ratios.
@@ -31,11 +30,26 @@ impl Field {
     /// The same in the units chosen.
     pub fn in_units_of(mut self, settings: Settings) -> Self {
         if self.number == Number::YoungsModulus && settings.stress == StressUnit::Gigapascal {
-            self.factor *= 1e3;
             self.range = self.range.map(|end| end / 1e3);
             self.unit = "GPa";
         }
         self
+    }
+
+    /// The unit that it is shown in.
+    pub fn unit(&self) -> Unit {
+        Unit::of(self.unit)
+    }
+
+    /// What messages call it: its letter, with the cable that it belongs to.
+    fn title(&self) -> String {
+        match self.number {
+            Number::Anchor(cable, _) => format!("{} of winch {}", self.symbol, cable + 1),
+            Number::Tension(cable) | Number::Horizontal(cable, _) | Number::Vertical(cable, _) => {
+                format!("{} of cable {}", self.symbol, cable + 1)
+            }
+            _ => self.symbol.into(),
+        }
     }
 }
 
@@ -92,6 +106,37 @@ impl Number {
         self.place(&mut copy).map_or(0.0, |place| *place)
     }
 
+    /// Makes it the same as in another scenario, to the last bit.
+    pub fn copy(self, from: &Scenario, to: &mut Scenario) {
+        match self {
+            Self::Elements => to.elements_per_cable = from.elements_per_cable,
+            Self::Direction => to.motion.direction = from.motion.direction,
+            _ => self.set(to, self.get(from)),
+        }
+    }
+
+    /// Its path in a scenario file.
+    fn path(self) -> String {
+        match self {
+            Self::YoungsModulus => "cable.youngs_modulus".into(),
+            Self::Area => "cable.area".into(),
+            Self::MassPerLength => "cable.mass_per_length".into(),
+            Self::PlatformMass => "platform.mass".into(),
+            Self::Gravity => "gravity".into(),
+            Self::Alpha => "damping.alpha".into(),
+            Self::Beta => "damping.beta".into(),
+            Self::Elements => "elements_per_cable".into(),
+            Self::Speed => "motion.speed".into(),
+            Self::PositionX => "motion.position[0]".into(),
+            Self::PositionY => "motion.position[1]".into(),
+            Self::Direction => "motion.direction".into(),
+            Self::Anchor(cable, i) => format!("cables[{cable}].anchor[{i}]"),
+            Self::Tension(cable) => format!("cables[{cable}].tension.constant"),
+            Self::Horizontal(cable, i) => format!("cables[{cable}].tension.horizontal[{i}]"),
+            Self::Vertical(cable, i) => format!("cables[{cable}].tension.vertical[{i}]"),
+        }
+    }
+
     /// Whether the scenario has such a number.
     pub fn is_in(self, scenario: &Scenario) -> bool {
         matches!(self, Self::Elements | Self::Direction) || self.place(&mut scenario.clone()).is_some()
@@ -140,8 +185,7 @@ impl Number {
 }
 
 const fn field(name: &'static str, symbol: &'static str, unit: &'static str, number: Number) -> Field {
-    let (factor, range) = (1.0, [0.0, 1.0]);
-    Field { name, symbol, unit, factor, range, logarithmic: false, integer: false, meaning: "", number }
+    Field { name, symbol, unit, range: [0.0, 1.0], logarithmic: false, integer: false, meaning: "", number }
 }
 
 /// The speed of the platform.
@@ -154,7 +198,6 @@ pub const SPEED: Field = Field {
 
 /// The angle of the motion.
 pub const DIRECTION: Field = Field {
-    factor: std::f64::consts::PI / 180.0,
     range: [-180.0, 180.0],
     meaning: "The direction of the motion: 0° to the right, 90° upward. Drag the arrow's tip on the canvas for the same.",
     ..field("Direction", "θ", "°", Number::Direction)
@@ -170,14 +213,12 @@ pub fn position([left, bottom, right, top]: [f64; 4]) -> [Field; 2] {
 /// Cables and platform.
 pub const BODY: [Field; 5] = [
     Field {
-        factor: 1e6,
         range: [1.0, 300_000.0],
         logarithmic: true,
         meaning: "Young's modulus of the cables. With A it makes the axial stiffness EA of N(λ).",
         ..field("Young's modulus", "E", "MPa", Number::YoungsModulus)
     },
     Field {
-        factor: 1e-4,
         range: [0.001, 10.0],
         logarithmic: true,
         meaning: "Cross-section of the cables.",
@@ -257,4 +298,124 @@ pub fn law(cable: usize) -> [Field; 6] {
         slope("vx", Number::Vertical(cable, 1)),
         slope("vy", Number::Vertical(cable, 2)),
     ]
+}
+
+/// The fields of all numbers of a scenario.
+fn all(scenario: &Scenario) -> impl Iterator<Item = Field> {
+    let cables = (0..scenario.cables.len()).flat_map(|cable| {
+        let law = law(cable).into_iter().chain([tension(cable)]);
+        law.chain(anchor(cable, [0.0; 4]))
+    });
+    let fixed = [SPEED, DIRECTION].into_iter().chain(position([0.0; 4])).chain(BODY).chain(MODEL);
+    fixed.chain(cables).filter(|field| field.number.is_in(scenario))
+}
+
+/// Puts another value, as it is stored, in the place of a number.
+///
+/// # Errors
+/// Why it is not allowed, in the words of the field that it is about: mostly this one.
+pub fn edited(scenario: &Scenario, field: &Field, value: f64, settings: Settings) -> Result<Scenario, String> {
+    let mut edited = scenario.clone();
+    if field.integer && value.fract() != 0.0 {
+        let fault = Fault::new(field.number.path(), value, Allowed::Whole(ELEMENTS));
+        return Err(in_words(&fault, scenario, settings));
+    }
+    field.number.set(&mut edited, value);
+    check(&edited, settings).map(|()| edited)
+}
+
+/// Whether a scenario is physical.
+///
+/// # Errors
+/// What is wrong first, in words.
+pub fn check(scenario: &Scenario, settings: Settings) -> Result<(), String> {
+    let Err(Faults(faults)) = scenario.to_robot() else { return Ok(()) };
+    Err(faults.first().map(|fault| in_words(fault, scenario, settings)).unwrap_or_default())
+}
+
+/// What is wrong, in the words and the unit of the field that it belongs to.
+fn in_words(fault: &Fault, scenario: &Scenario, settings: Settings) -> String {
+    let is_of = |path: &str, field: &Field| {
+        // A direction is one number to people, and two in a file.
+        path.strip_prefix(&field.number.path()).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
+    };
+    let of = |path: &str| all(scenario).find(|field| is_of(path, field)).map(|field| field.in_units_of(settings));
+    if let Allowed::OtherThanAnchor(other) = fault.allowed {
+        let cables = 0..scenario.cables.len();
+        let cable = cables.into_iter().find(|cable| fault.path == format!("cables[{cable}].anchor"));
+        return match cable {
+            Some(cable) => format!("Winch {} must not be where winch {} is", cable + 1, other + 1),
+            None => fault.to_string(),
+        };
+    }
+    let Some(field) = of(&fault.path) else { return fault.to_string() };
+    let (title, unit) = (field.title(), field.unit());
+    let zero = unit.with_name("0");
+    let found = fault.value.parse().map(|value| unit.with_name(&number::brief(unit.shown(value))));
+    let found = found.map(|found| format!(", not {found}")).unwrap_or_default();
+    match &fault.allowed {
+        Allowed::Positive => format!("{title} must be more than {zero}{found}"),
+        Allowed::NotNegative { instead: "" } => format!("{title} must be {zero} or more{found}"),
+        Allowed::NotNegative { instead } => format!("{title} must be {zero} or more{found}: {instead}"),
+        Allowed::Finite => format!("{title} must be a finite number"),
+        Allowed::Whole(range) => {
+            format!("{title} must be a whole number from {} to {}{found}", range.start(), range.end())
+        }
+        Allowed::ProductsWith(paths) => {
+            let others: Vec<&str> = paths.iter().filter_map(|path| of(path)).map(|field| field.symbol).collect();
+            format!("The product of {title} and {} is too large or too small a number", others.join(" or "))
+        }
+        Allowed::OtherThanAnchor(_) => fault.to_string(),
+        Allowed::Words(words) => format!("{title} must be {words}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::presets;
+
+    #[test]
+    fn every_field_has_its_unit_and_every_fault_finds_its_field() {
+        for scenario in presets::PRESETS.iter().map(presets::Preset::scenario) {
+            for field in all(&scenario) {
+                let kind = field.unit().dimension.kind();
+                assert_eq!(kind == "a plain number", field.unit.is_empty(), "{}: {kind}", field.name);
+                // The same number, and no other one, is found by the path of its fault.
+                let mut wrong = scenario.clone();
+                field.number.set(&mut wrong, f64::NAN);
+                let faults = wrong.to_robot().map_or_else(|faults| faults.0, |_| Vec::new());
+                assert!(
+                    faults.iter().any(|fault| fault.path.starts_with(&field.number.path())),
+                    "{field:?}: {faults:?}"
+                );
+                let text = check(&wrong, Settings::default()).expect_err("no number");
+                assert!(text.starts_with(field.symbol), "{field:?}: {text}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_allowed_is_said_in_the_words_and_the_unit_of_the_field() {
+        let scenario = presets::PRESETS[0].scenario();
+        let mut settings = Settings::default();
+        let refused = |field: &Field, value: f64, settings: Settings| {
+            edited(&scenario, field, value, settings).expect_err("refused")
+        };
+        assert_eq!(refused(&BODY[0], -5e6, settings), "E must be more than 0 MPa, not -5 MPa");
+        let beyond = "The product of E and A is too large or too small a number";
+        assert_eq!(
+            (refused(&BODY[0], 1e-320, settings), refused(&BODY[0], 1e-310, settings)),
+            (beyond.into(), beyond.into())
+        );
+        settings.stress = StressUnit::Gigapascal;
+        assert_eq!(refused(&BODY[0], 0.0, settings), "E must be more than 0 GPa, not 0 GPa");
+        assert_eq!(refused(&BODY[1], 0.0, settings), "A must be more than 0 cm², not 0 cm²");
+        assert_eq!(
+            refused(&SPEED, -1.0, settings),
+            "v must be 0 m/s or more, not -1 m/s: turn the direction round to go back"
+        );
+        assert_eq!(refused(&MODEL[2], 2.5, settings), "n must be a whole number from 2 to 200, not 2.5");
+        assert_eq!(refused(&MODEL[2], 1e9, settings), "n must be a whole number from 2 to 200, not 1e9");
+    }
 }

@@ -16,6 +16,7 @@ mod layout;
 mod menu;
 #[cfg(target_arch = "wasm32")]
 mod mirror;
+mod number;
 #[cfg(target_arch = "wasm32")]
 mod page;
 mod panels;
@@ -447,6 +448,7 @@ impl eframe::App for Tautline {
             let facts = self.present.facts(self.state.settings);
             self.page.publish(facts, frame.info().cpu_usage);
             let notice = self.notice.as_ref().map(|notice| notice.text.clone());
+            let notice = number::message(context).or(notice);
             self.page.tell(notice.or_else(|| tour::text(&self.state)).or_else(|| self.windows.text(&self.state)));
         }
     }

@@ -229,7 +229,7 @@ fn read(file: &Value) -> Scenario {
             file.field("cables").list(&allowed).iter().map(read_cable).collect()
         },
         elements_per_cable: {
-            let allowed = format!("a whole number from {} to {}", ELEMENTS.start(), ELEMENTS.end());
+            let allowed = robot::Allowed::Whole(ELEMENTS).to_string();
             file.field("elements_per_cable").whole(&allowed)
         },
         damping: Damping { alpha: damping.field("alpha").number(), beta: damping.field("beta").number() },

@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 
 use eframe::egui::emath::smart_aim::best_in_range_f64;
-use eframe::egui::{Id, Slider, Ui, Visuals};
+use eframe::egui::{Id, Ui, Vec2, Visuals};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoints, PlotUi, Points, VLine};
 
 use super::{explain, few_lines, study};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::number::{self, Control, Unit};
 use crate::app::series::{self, Piece};
 use crate::app::studies::{Known, Shown};
 use crate::app::theme;
@@ -59,12 +60,10 @@ pub fn ui(
     );
     ui.horizontal(|ui| {
         ui.spacing_mut().slider_width = 90.0;
-        let (hertz, unit) = settings.hertz();
-        let mut shown = *highest * hertz;
-        let slider = Slider::new(&mut shown, 0.5 * hertz..=100.0 * hertz).logarithmic(true);
-        if ui.add(slider.suffix(format!(" {unit}")).text("highest frequency").max_decimals(1)).changed() {
-            *highest = shown / hertz;
-        }
+        let unit = Unit::of_hertz(settings.hertz().1);
+        let step = 0.01 * unit.shown(*highest);
+        let control = Control { name: "Highest frequency", unit, step, size: Vec2::new(80.0, 18.0) };
+        number::slider(ui, &control, highest, [0.5, 100.0].map(|end| unit.shown(end)));
     });
     modes.update(known, *highest);
     if modes.pieces.is_empty() {

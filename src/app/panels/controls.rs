@@ -1,8 +1,7 @@
 //! Sliders with typed values for everything that can be turned.
 
 use eframe::egui::{
-    Align, Button, CollapsingHeader, ComboBox, DragValue, Grid, Label, Layout, RichText, Sense, Slider, SliderClamping,
-    Ui, Vec2,
+    Align, Button, CollapsingHeader, ComboBox, Grid, Label, Layout, RichText, Sense, Slider, SliderClamping, Ui, Vec2,
 };
 
 use super::robot;
@@ -10,12 +9,15 @@ use crate::app::Facts;
 use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::fields::{self, Field, Number};
-use crate::app::state::{Document, UiState};
+use crate::app::number::{self, Control};
+use crate::app::state::{Document, Settings, UiState};
 use crate::robot::{Linearisation, Strain, TensionLaw};
 use crate::scenario::{Scenario, presets};
 
 /// Room for a control's name, in points.
 const LABEL: Vec2 = Vec2::new(130.0, 18.0);
+/// Room for a number with its unit, in points.
+pub(super) const NUMBER: Vec2 = Vec2::new(92.0, 18.0);
 
 /// The scenario on its way through the controls.
 pub(super) struct Sheet<'a> {
@@ -25,11 +27,14 @@ pub(super) struct Sheet<'a> {
     pub(super) original: &'a Scenario,
     /// The control to bring into view, until it has been drawn.
     pub(super) wanted: Option<Number>,
+    /// Units.
+    pub(super) settings: Settings,
 }
 
 /// Draws the controls; a change becomes one command.
 pub fn ui(state: &mut UiState, ui: &mut Ui, Facts { document, settings, .. }: Facts<'_>, commands: &mut Vec<Command>) {
-    let mut sheet = Sheet { edited: document.scenario.clone(), original: &document.original, wanted: state.wanted };
+    let edited = document.scenario.clone();
+    let mut sheet = Sheet { edited, original: &document.original, wanted: state.wanted, settings };
     examples(ui, document, commands);
     let [x, y] = fields::position(canvas::frame(&document.scenario));
     group(ui, "Motion", &mut sheet, &[fields::SPEED, fields::DIRECTION, x, y]);
@@ -87,8 +92,8 @@ impl Field {
 /// Name, slider, typed value, reset.
 fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
     let value = field.number.get(&sheet.edited);
-    let mut shown = value / field.factor;
-    let before = shown;
+    let unit = field.unit();
+    let [low, high] = field.range;
     ui.horizontal(|ui| {
         let title = format!("{} {}", field.name, if field.symbol == field.name { "" } else { field.symbol });
         let name = Label::new(title.trim_end()).truncate().sense(Sense::hover());
@@ -97,8 +102,10 @@ fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
             ui.add(name).on_hover_text(field.meaning)
         });
         let name = column.inner;
-        let [low, high] = field.range;
-        ui.spacing_mut().slider_width = (ui.available_width() - 122.0).clamp(60.0, 260.0);
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER.x - 38.0).clamp(60.0, 260.0);
+        let before = unit.shown(value);
+        let mut shown = before;
+        // A number beyond the range stays as it is.
         let mut slider = Slider::new(&mut shown, low..=high)
             .show_value(false)
             .logarithmic(field.logarithmic)
@@ -115,36 +122,35 @@ fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
             slider.request_focus();
             slider.scroll_to_me(Some(Align::Center));
         }
-        let suffix = if field.unit.is_empty() { String::new() } else { format!(" {}", field.unit) };
-        let mut typed = DragValue::new(&mut shown)
-            .speed(if field.logarithmic { 0.01 * before.abs().max(1e-4) } else { 0.002 * (high - low) })
-            .suffix(suffix)
-            .max_decimals(if field.integer { 0 } else { 6 })
-            .update_while_editing(false);
-        if field.integer {
-            typed = typed.speed(0.05);
+        let step = match (field.integer, field.logarithmic) {
+            (true, _) => 1.0,
+            (false, true) if before == 0.0 => 1e-6 * high,
+            (false, true) => 0.01 * before.abs(),
+            (false, false) => 0.002 * (high - low),
+        };
+        let mut answer = Control { name: field.symbol, unit, step, size: NUMBER }.show(ui, value);
+        answer.response = answer.response.labelled_by(name.id);
+        if !same(shown, before) {
+            answer.value = Some(unit.to_stored(shown));
         }
-        ui.add_sized([84.0, 18.0], typed).labelled_by(name.id);
-        let first = field.number.get(sheet.original);
-        let differs = field.number.is_in(sheet.original) && !same(value, first);
-        let reset = ui.add_enabled(differs, Button::new("↺").small().frame(false));
-        if reset.on_hover_text(format!("Back to {} {}", round(first / field.factor), field.unit)).clicked() {
-            shown = first / field.factor;
+        let reset = field.number.is_in(sheet.original) && !same(value, field.number.get(sheet.original));
+        let first = number::brief(unit.shown(field.number.get(sheet.original)));
+        let button = ui.add_enabled(reset, Button::new("↺").small().frame(false));
+        if button.on_hover_text(format!("Back to {}", unit.with_name(&first))).clicked() {
+            field.number.copy(sheet.original, &mut sheet.edited);
+        }
+        if let Some(value) = answer.value {
+            match fields::edited(&sheet.edited, field, value, sheet.settings) {
+                Ok(edited) => sheet.edited = edited,
+                Err(reason) => answer.refuse(ui, reason),
+            }
         }
     });
-    if !same(shown, before) {
-        field.number.set(&mut sheet.edited, shown * field.factor);
-    }
 }
 
-/// Equal, or both no numbers: a typed NaN must not come back every frame.
+/// Equal, or both no numbers: a NaN must not come back every frame.
 fn same(a: f64, b: f64) -> bool {
     a.total_cmp(&b).is_eq()
-}
-
-/// Twelve digits: without the last ones that a unit's factor may spoil.
-fn round(value: f64) -> f64 {
-    format!("{value:.12e}").parse().unwrap_or(value)
 }
 
 fn choices(ui: &mut Ui, edited: &mut Scenario) {
@@ -177,7 +183,7 @@ fn tensions(ui: &mut Ui, sheet: &mut Sheet<'_>) {
         let law = sheet.edited.cables[cable].tension;
         let kind = match law {
             TensionLaw::Equilibrium => continue,
-            TensionLaw::Constant(tension) => format!("{} N", round(tension)),
+            TensionLaw::Constant(tension) => format!("{} N", number::brief(tension)),
             TensionLaw::Hypot { .. } => "by law".into(),
         };
         let open = matches!(sheet.wanted, Some(Number::Tension(of) | Number::Horizontal(of, _)) if of == cable)

@@ -1,10 +1,11 @@
 //! The tabs of plots and the mode shape's playback.
 
-use eframe::egui::{Rect, Slider, Ui};
+use eframe::egui::{Rect, Slider, SliderClamping, Ui, Vec2};
 
 use super::{campbell, directions, eigenvalues, growth, knobs, line, mesh, modes};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::number::{self, Control, Unit};
 use crate::app::state::{Playback, Plot, UiState};
 use crate::compute::protocol::{ModeChoice, Which};
 use crate::robot::Linearisation;
@@ -95,7 +96,8 @@ fn playback(
     });
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().slider_width = 70.0;
-        ui.add(Slider::new(&mut playback.amplitude, 0.0..=0.1).show_value(false).text("Amplitude"));
+        let amplitude = Slider::new(&mut playback.amplitude, 0.0..=0.1).show_value(false);
+        ui.add(amplitude.clamping(SliderClamping::Never).text("Amplitude"));
         let mut degrees = playback.phase.to_degrees();
         let phase = Slider::new(&mut degrees, 0.0..=360.0).show_value(false).text("Phase");
         if ui.add(phase).on_hover_text("Where in its oscillation the mode is").changed() {
@@ -105,10 +107,10 @@ fn playback(
     });
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().slider_width = 70.0;
-        let tempo = Slider::new(&mut playback.slow_motion, 0.02..=2.0)
-            .logarithmic(true)
-            .custom_formatter(|x, _| format!("{x:.2}×"));
-        ui.add(tempo.text("Tempo")).on_hover_text("Seconds of the robot per second of the screen");
+        let tempo = playback.slow_motion;
+        let control = Control { name: "Tempo", unit: Unit::of(""), step: 0.01 * tempo, size: Vec2::new(48.0, 18.0) };
+        number::slider(ui, &control, &mut playback.slow_motion, [0.02, 2.0])
+            .on_hover_text("Seconds of the robot per second of the screen");
         if cfg!(target_arch = "wasm32") {
             let text = "The mode's frequency as a tone, eight octaves higher";
             ui.toggle_value(&mut playback.sound, "Sound").on_hover_text(text);

@@ -2,7 +2,8 @@
 
 use eframe::egui::{Button, CollapsingHeader, ComboBox, Ui};
 
-use super::controls::{Sheet, rows};
+use super::controls::{NUMBER, Sheet, rows};
+use crate::app::number::{Control, Unit};
 use crate::app::{canvas, fields};
 use crate::robot::{CABLES, TensionLaw};
 use crate::scenario::Scenario;
@@ -14,7 +15,7 @@ pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
     CollapsingHeader::new("Layout of the robot").show(ui, |ui| {
         ui.checkbox(unlocked, "Unlock the winches")
             .on_hover_text("Winches can then be dragged on the canvas, or moved by arrow keys");
-        frame(ui, &mut sheet.edited);
+        frame(ui, sheet);
         ui.horizontal_wrapped(|ui| {
             ui.label("At equilibrium").on_hover_text("The tensions of these two cables hold the platform in balance");
             let pair = equilibrium(&sheet.edited);
@@ -48,28 +49,36 @@ pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
 }
 
 /// Width and height of the frame that the winches span; another one moves them all in proportion.
-fn frame(ui: &mut Ui, edited: &mut Scenario) {
+fn frame(ui: &mut Ui, sheet: &mut Sheet<'_>) {
     let spans = |scenario: &Scenario, i: usize| {
         let all = || scenario.cables.iter().map(|cable| cable.anchor[i]);
         (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max))
     };
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         ui.label("Frame").on_hover_text("The workspace that the winches span. Another size moves them in proportion.");
         for (i, name) in [(0, "Width"), (1, "Height")] {
-            let (low, high) = spans(edited, i);
-            let mut size = high - low;
-            if size <= 0.0 {
+            let (low, high) = spans(&sheet.edited, i);
+            let before = high - low;
+            if before <= 0.0 {
                 continue;
             }
-            let before = size;
             let label = ui.label(name);
-            let value = eframe::egui::DragValue::new(&mut size).speed(0.01 * before).suffix(" m").max_decimals(4);
-            let changed = ui.add(value.update_while_editing(false)).labelled_by(label.id).changed();
-            if changed && size > 0.0 && size.is_finite() {
-                let middle = 0.5 * (low + high);
-                let scaled = |at: f64| middle + (at - middle) * (size / before);
-                edited.cables.iter_mut().for_each(|cable| cable.anchor[i] = scaled(cable.anchor[i]));
-                edited.motion.position[i] = scaled(edited.motion.position[i]);
+            let control = Control { name, unit: Unit::of("m"), step: 0.01 * before, size: NUMBER };
+            let mut answer = control.show(ui, before);
+            answer.response = answer.response.labelled_by(label.id);
+            let Some(size) = answer.value else { continue };
+            if size <= 0.0 {
+                answer.refuse(ui, format!("{name} must be more than 0 m"));
+                continue;
+            }
+            let mut edited = sheet.edited.clone();
+            let middle = 0.5 * (low + high);
+            let scaled = |at: f64| middle + (at - middle) * (size / before);
+            edited.cables.iter_mut().for_each(|cable| cable.anchor[i] = scaled(cable.anchor[i]));
+            edited.motion.position[i] = scaled(edited.motion.position[i]);
+            match fields::check(&edited, sheet.settings) {
+                Ok(()) => sheet.edited = edited,
+                Err(reason) => answer.refuse(ui, reason),
             }
         }
     });

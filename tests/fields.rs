@@ -1,0 +1,352 @@
+//! The numbers that people see and type: what is stored changes only where somebody types something else, and what
+//! cannot be read or is not allowed is told beside the field.
+
+#![cfg(feature = "app")]
+#![expect(clippy::float_cmp, reason = "what is typed is stored to the last bit")]
+
+#[path = "common/interface.rs"]
+mod interface;
+
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers, Theme, Vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use tautline::app::Tautline;
+use tautline::robot::TensionLaw;
+use tautline::scenario::Scenario;
+
+use interface::{SIZE, app, app_with, paper, settle, type_value};
+
+type App = Harness<'static, Tautline>;
+
+/// Every number has a value with more digits than are shown, some of them beyond their sliders' ranges.
+fn awkward() -> Scenario {
+    let mut scenario = paper();
+    scenario.gravity = 9.806_650_000_000_001;
+    scenario.cable.youngs_modulus = 1.234_567_890_123_456_7e12;
+    scenario.cable.area = 5.000_000_000_000_000_4e-5;
+    scenario.cable.mass_per_length = 0.398_765_432_109_876_5;
+    scenario.platform.mass = 2.000_000_123_456_789;
+    scenario.damping.alpha = 0.1 + 0.2;
+    scenario.damping.beta = 1.234_567_8e-5;
+    scenario.motion.position = [1.0 / 3.0, -2.0 / 7.0];
+    // Of another length than one, and at an angle that degrees do not hold.
+    scenario.motion.direction = [0.3, 0.7];
+    scenario.motion.speed = 55.555_555_555_555_55;
+    scenario.cables[2].anchor = [-9.876_543_210_987_654, -5.1];
+    scenario.cables[3].tension = TensionLaw::Constant(67.312_345_678_901_23);
+    scenario
+}
+
+/// The numbers as they are stored, bit by bit.
+fn bits(scenario: &Scenario) -> Vec<u64> {
+    let Scenario { gravity, cable, platform, cables, damping, motion, .. } = scenario;
+    let mut all = vec![*gravity, cable.youngs_modulus, cable.area, cable.mass_per_length, platform.mass];
+    all.extend([damping.alpha, damping.beta, motion.speed]);
+    all.extend(motion.position.into_iter().chain(motion.direction));
+    for cable in cables {
+        all.extend(cable.anchor);
+        match cable.tension {
+            TensionLaw::Equilibrium => {}
+            TensionLaw::Constant(tension) => all.push(tension),
+            TensionLaw::Hypot { horizontal, vertical } => all.extend(horizontal.into_iter().chain(vertical)),
+        }
+    }
+    all.into_iter().map(f64::to_bits).chain([scenario.elements_per_cable as u64]).collect()
+}
+
+/// Opens all that is folded in the controls.
+fn unfold(app: &mut App) {
+    for label in ["Cable 3: by law", "Cable 4: 67.312 N", "Layout of the robot", "Winch 1", "Winch 3"] {
+        let header = app.get_all_by_label(label).last().expect("a header");
+        header.scroll_to_me();
+        header.click();
+        app.run_steps(20);
+    }
+}
+
+/// The fields on the screen, from the first to the last.
+fn fields(app: &App) -> Vec<egui_kittest::Node<'_>> {
+    app.get_all_by_role(Role::SpinButton).collect()
+}
+
+#[test]
+fn looking_at_a_number_leaves_it_as_it_is_to_the_last_bit() {
+    for stress in ["MPa", "GPa"] {
+        // High enough for all controls at once, so that a click meets what it is meant for.
+        let mut app = app_with(awkward(), Vec2::new(SIZE.x, 1900.0), Theme::Light);
+        choose_stress(&mut app, stress);
+        unfold(&mut app);
+        let before = bits(&awkward());
+        assert_eq!(bits(app.state().scenario()), before, "opening it");
+        let count = fields(&app).len();
+        assert!(count >= 24, "{count} fields");
+        for leave in [Key::Tab, Key::Enter, Key::Escape] {
+            for i in 0..count {
+                fields(&app)[i].click();
+                app.run_steps(3);
+                app.key_press(leave);
+                app.run_steps(3);
+                assert_eq!(bits(app.state().scenario()), before, "field {i} left by {leave:?}");
+            }
+        }
+        // A click elsewhere, too, and the sliders.
+        for i in 0..count {
+            fields(&app)[i].click();
+            app.run_steps(2);
+        }
+        for slider in 0..app.get_all_by_role(Role::Slider).count() {
+            app.get_all_by_role(Role::Slider).nth(slider).expect("a slider").focus();
+            app.run_steps(2);
+            app.key_press(Key::Tab);
+            app.run_steps(2);
+        }
+        assert_eq!(bits(app.state().scenario()), before, "sliders");
+        assert!(!can_undo(&app), "nothing has happened");
+    }
+}
+
+fn choose_stress(app: &mut App, unit: &str) {
+    app.get_by_label("View").click();
+    app.run_steps(3);
+    app.get_by_label_contains("Settings").click();
+    app.run_steps(3);
+    app.get_by_role_and_label(Role::ComboBox, "Young's modulus in").click();
+    app.run_steps(3);
+    app.get_by_role_and_label(Role::Button, unit).click();
+    app.run_steps(3);
+    app.key_press(Key::Escape);
+    app.run_steps(3);
+}
+
+fn can_undo(app: &App) -> bool {
+    !app.get_by_role_and_label(Role::Button, "Undo").accesskit_node().is_disabled()
+}
+
+/// What a field shows while nobody edits it.
+fn shown(app: &App, label: &str) -> String {
+    app.get_by_role_and_label(Role::SpinButton, label).accesskit_node().value().unwrap_or_default()
+}
+
+#[test]
+fn small_and_large_numbers_are_shown_with_an_exponent() {
+    let mut scenario = paper();
+    scenario.damping.beta = 4e-7;
+    scenario.platform.mass = 2.1e11;
+    let mut app = app_with(scenario, SIZE, Theme::Light);
+    assert_eq!(shown(&app, "Stiffness damping β"), "4e-7 s");
+    assert_eq!(shown(&app, "Platform mass m"), "2.1e11 kg");
+    click(&mut app, "Stiffness damping β");
+    app.key_press(Key::Tab);
+    settle(&mut app);
+    assert_eq!(app.state().scenario().damping.beta.to_bits(), 4e-7_f64.to_bits());
+    let mut scenario = paper();
+    scenario.damping.beta = 1.234_567_8e-5;
+    let mut app = app_with(scenario, SIZE, Theme::Light);
+    click(&mut app, "Stiffness damping β");
+    assert_eq!(edited_text(&app), "1.2345678e-5", "all digits are there to be edited");
+    app.key_press(Key::Tab);
+    settle(&mut app);
+    assert_eq!(app.state().scenario().damping.beta.to_bits(), 1.234_567_8e-5_f64.to_bits());
+}
+
+fn click(app: &mut App, label: &str) {
+    app.get_by_role_and_label(Role::SpinButton, label).click();
+    app.run_steps(3);
+}
+
+/// The text in the field that has the focus.
+fn edited_text(app: &App) -> String {
+    let focused = app.root().children_recursive().find(|node| node.accesskit_node().is_focused());
+    focused.expect("a focus").accesskit_node().value().unwrap_or_default()
+}
+
+/// Types over what a field holds, without leaving it.
+fn type_into(app: &mut App, label: &str, text: &str) {
+    click(app, label);
+    app.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    app.step();
+    app.key_press(Key::Backspace);
+    app.event(Event::Text(text.into()));
+    app.run_steps(2);
+}
+
+/// The message beside a field, and what the field itself says of it.
+fn told(app: &App, label: &str) -> Option<String> {
+    let message = app.query_by_label_contains("▲ ").map(|node| interface::text_of(&node));
+    let message = message.map(|text| text.trim_start_matches("▲ ").to_owned());
+    if message.is_some() {
+        let field = app.get_by_role_and_label(Role::SpinButton, label);
+        assert_eq!(field.accesskit_node().description(), message, "the field says so, too");
+    }
+    message
+}
+
+#[test]
+fn what_is_typed_is_stored_in_si_units() {
+    let mut app = app();
+    let cases: [(&str, &str, fn(&Scenario) -> f64, f64); 9] = [
+        ("Platform mass m", "1,5", |robot| robot.platform.mass, 1.5),
+        ("Platform mass m", "1/3", |robot| robot.platform.mass, 1.0 / 3.0),
+        ("Speed v", "2*pi", |robot| robot.motion.speed, 2.0 * std::f64::consts::PI),
+        ("Position x", "-12 mm", |robot| robot.motion.position[0], -0.012),
+        ("Position y", "2 ft", |robot| robot.motion.position[1], 0.6096),
+        ("Young's modulus E", "200 GPa", |robot| robot.cable.youngs_modulus, 200e9),
+        ("Young's modulus E", "125", |robot| robot.cable.youngs_modulus, 125e6),
+        ("Cross-section A", "50 mm²", |robot| robot.cable.area, 5e-5),
+        ("Speed v", "18 km/h", |robot| robot.motion.speed, 5.0),
+    ];
+    for (label, text, value, expected) in cases {
+        type_value(&mut app, label, text);
+        assert_eq!(value(app.state().scenario()), expected, "{text:?} into {label}");
+        assert_eq!(told(&app, label), None);
+    }
+    // The footer has nothing to say of it.
+    assert_eq!(app.state().notice(), None);
+}
+
+#[test]
+fn what_is_not_read_or_not_allowed_is_told_beside_the_field_and_the_old_value_stays() {
+    let cases = [
+        ("Young's modulus E", "abc", "“abc” is neither a number nor a unit"),
+        ("Young's modulus E", "12 kg", "E is a stress; kg is a mass"),
+        ("Young's modulus E", "1e999", "“1e999” is too large a number"),
+        ("Young's modulus E", "-5", "E must be more than 0 MPa, not -5 MPa"),
+        ("Cross-section A", "0", "A must be more than 0 cm², not 0 cm²"),
+        ("Position x", "12 kg", "x is a length; kg is a mass"),
+        ("Speed v", "-1", "v must be 0 m/s or more, not -1 m/s: turn the direction round to go back"),
+        ("Elements per cable n", "2,5", "n must be a whole number from 2 to 200, not 2.5"),
+        ("Elements per cable n", "1000", "n must be a whole number from 2 to 200, not 1000"),
+        ("Mass damping α", "1,234.5", "“1,234.5” has commas or points between thousands: write 1234.5"),
+        ("Mass damping α", "NaN", "“NaN” is neither a number nor a unit"),
+        ("Platform mass m", "", "m needs a number"),
+    ];
+    for leave in [Key::Enter, Key::Tab] {
+        let mut app = app();
+        for (label, text, expected) in cases {
+            type_into(&mut app, label, text);
+            app.key_press(leave);
+            settle(&mut app);
+            assert_eq!(told(&app, label).as_deref(), Some(expected), "{text:?} into {label}");
+            assert_eq!(*app.state().scenario(), paper());
+            assert_eq!(app.state().notice(), None, "the footer is for other things");
+            let message = app.get_by_label_contains(expected).rect();
+            assert!(message.left() >= 0.0 && message.right() <= 400.0, "{message:?} is beside the controls");
+            if leave == Key::Enter {
+                // The text is still there to be mended.
+                assert_eq!(edited_text(&app), text);
+                app.key_press(Key::Escape);
+            } else {
+                click(&mut app, label);
+                assert_eq!(told(&app, label), None, "{label} is edited again");
+                app.key_press(Key::Tab);
+            }
+            app.run_steps(3);
+            assert_eq!(told(&app, label), None, "{label} has been left");
+        }
+        assert!(!can_undo(&app));
+    }
+}
+
+#[test]
+fn a_message_goes_when_its_text_is_mended_or_the_robot_changes() {
+    let mut app = app();
+    type_into(&mut app, "Platform mass m", "-1");
+    app.key_press(Key::Enter);
+    app.run_steps(3);
+    assert!(told(&app, "Platform mass m").is_some());
+    app.key_press(Key::Backspace);
+    app.run_steps(2);
+    assert_eq!(told(&app, "Platform mass m"), None);
+    app.event(Event::Text("\u{8}".into()));
+    app.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    app.event(Event::Text("3".into()));
+    app.key_press(Key::Enter);
+    settle(&mut app);
+    assert_eq!(app.state().scenario().platform.mass, 3.0);
+
+    type_into(&mut app, "Platform mass m", "-1");
+    app.key_press(Key::Tab);
+    app.run_steps(3);
+    assert!(told(&app, "Platform mass m").is_some());
+    type_value(&mut app, "Gravity g", "1.62");
+    assert_eq!(told(&app, "Platform mass m"), None);
+}
+
+#[test]
+fn nothing_moves_when_a_message_appears() {
+    let mut app = app();
+    let rects = |app: &App| -> Vec<_> { fields(app).iter().map(egui_kittest::Node::rect).collect() };
+    let before = rects(&app);
+    type_into(&mut app, "Young's modulus E", "a text that is far longer than the field is wide, and no number");
+    app.key_press(Key::Tab);
+    app.run_steps(5);
+    assert!(told(&app, "Young's modulus E").is_some());
+    assert_eq!(rects(&app), before);
+    // Nor by a number that has many digits.
+    type_value(&mut app, "Position x", "-1.23456789012345e-12");
+    type_value(&mut app, "Young's modulus E", "1.23456789012345e11");
+    assert_eq!(rects(&app), before);
+}
+
+#[test]
+fn a_fault_of_another_field_is_told_beside_the_one_edited() {
+    let mut app = app_with(paper(), Vec2::new(SIZE.x, 1900.0), Theme::Light);
+    for label in ["Layout of the robot", "Winch 1"] {
+        app.get_all_by_label(label).last().expect("a header").click();
+        app.run_steps(20);
+    }
+    // Onto winch 3, which comes later in the file, so that it is the file's fault there.
+    type_into(&mut app, "y", "-5");
+    app.key_press(Key::Enter);
+    settle(&mut app);
+    assert_eq!(told(&app, "y").as_deref(), Some("Winch 3 must not be where winch 1 is"));
+    assert_eq!(*app.state().scenario(), paper());
+    app.key_press(Key::Escape);
+    app.run_steps(3);
+    type_into(&mut app, "Width", "-3");
+    app.key_press(Key::Tab);
+    settle(&mut app);
+    assert_eq!(told(&app, "Width").as_deref(), Some("Width must be more than 0 m"));
+}
+
+#[test]
+fn esc_takes_back_what_was_typed_and_closes_nothing_else() {
+    let mut app = app();
+    app.get_by_label("Help").click();
+    app.run_steps(3);
+    app.get_by_label_contains("Keyboard shortcuts").click();
+    app.run_steps(3);
+    let window = "Undo the last step; a drag is one step";
+    assert!(app.query_by_label_contains(window).is_some());
+    type_into(&mut app, "Platform mass m", "7");
+    app.key_press(Key::Escape);
+    settle(&mut app);
+    assert_eq!(*app.state().scenario(), paper());
+    assert_eq!(shown(&app, "Platform mass m"), "2 kg");
+    assert!(app.query_by_label_contains(window).is_some(), "the window stays open");
+    assert!(!can_undo(&app), "there is nothing to take back");
+    app.run_steps(90);
+    assert_eq!(*app.state().scenario(), paper());
+    // The next one closes the window.
+    app.key_press(Key::Escape);
+    app.run_steps(5);
+    assert!(app.query_by_label_contains(window).is_none());
+}
+
+#[test]
+fn reset_brings_back_the_very_number() {
+    let mut app = app_with(awkward(), Vec2::new(SIZE.x, 1900.0), Theme::Light);
+    let labels =
+        ["Speed v", "Direction θ", "Position x", "Young's modulus E", "Cross-section A", "Stiffness damping β"];
+    for label in labels {
+        type_value(&mut app, label, "3");
+    }
+    assert_ne!(bits(app.state().scenario()), bits(&awkward()));
+    for _ in labels {
+        let reset = app.get_all_by_label("↺").find(|node| !node.accesskit_node().is_disabled());
+        reset.expect("a value to be reset").click();
+        settle(&mut app);
+    }
+    assert_eq!(bits(app.state().scenario()), bits(&awkward()));
+}
