@@ -3,11 +3,12 @@
 
 mod common;
 
-use std::io::Write as _;
+use std::io::{Read, Write as _};
 use std::process::{Command, Stdio};
 
 use common::shell::{File, refuse, succeed};
 use serde_json::Value;
+use tautline::cli;
 use tautline::scenario::{Report, Scenario, link, presets};
 
 fn analyze(input: &str, more: &[&str]) -> Value {
@@ -138,10 +139,114 @@ fn bad_scenarios_are_refused_with_a_line_per_fault() {
     let lines = refuse(&["analyze", "-"], "{ \"gravity\": 9.81,\n  oops }");
     assert!(lines[0].starts_with("standard input: scenario: ") && lines[0].contains("line 2 column 3"), "{lines:?}");
     assert_eq!(lines.len(), 1);
-    let latin = File::new("latin.json", b"{ \"name\": \"M\xfcller\" }");
-    assert!(refuse(&["analyze", latin.path()], "")[0].contains("not UTF-8"));
     let lines = refuse(&["analyze", "/no/such/file.json"], "");
     assert!(lines.len() == 1 && lines[0].starts_with("/no/such/file.json: cannot be read: "), "{lines:?}");
+}
+
+/// A text as programs of Windows, among others, write it to a file.
+fn encodings(text: &str) -> [(&'static str, Vec<u8>); 4] {
+    let utf16 =
+        |bytes: fn(u16) -> [u8; 2]| "\u{feff}".encode_utf16().chain(text.encode_utf16()).flat_map(bytes).collect();
+    [
+        ("UTF-8", text.into()),
+        ("UTF-8 with a mark", format!("\u{feff}{text}").into()),
+        ("UTF-16 LE", utf16(u16::to_le_bytes)),
+        ("UTF-16 BE", utf16(u16::to_be_bytes)),
+    ]
+}
+
+#[test]
+fn files_of_other_systems_are_read_at_every_way_in() {
+    let scenario = Scenario { name: Some("Größe 1, 大, 🤖".into()), ..paper() };
+    let json = scenario.to_json().replace('\n', "\r\n");
+    let verbs: [&[&str]; 4] = [
+        &["link"],
+        &["analyze"],
+        &["map", "--nx", "2", "--ny", "1", "--max-speed", "1"],
+        &["sweep", "--set", "gravity=9:10:2", "--max-speed", "1"],
+    ];
+    let expected = verbs.map(|verb| succeed(&[verb, &["-"]].concat(), &json));
+    assert!(expected[1].contains("Größe 1, 大, 🤖"), "{}", expected[1]);
+    for (encoding, bytes) in encodings(&json) {
+        let file = File::new(&format!("{encoding}.json"), &bytes);
+        for (verb, expected) in verbs.iter().zip(&expected) {
+            assert_eq!(succeed(&[verb, &[file.path()][..]].concat(), ""), *expected, "{encoding}");
+            assert_eq!(succeed(&[verb, &["-"][..]].concat(), &bytes), *expected, "{encoding}");
+        }
+        // The application is opened with it.
+        let mut input = &bytes[..];
+        for path in [file.path(), "-"] {
+            let streams = cli::Streams { input: &mut input, output: &mut Vec::new(), errors: &mut Vec::new() };
+            let cli::Start::App { scenario: Some(opened) } = cli::run_with(["tautline", path].map(Into::into), streams)
+            else {
+                panic!("{encoding}: not opened from {path}")
+            };
+            assert_eq!(*opened, scenario, "{encoding}");
+        }
+    }
+}
+
+#[test]
+fn other_encodings_are_refused_with_a_hint() {
+    let json = at(0.0);
+    let wide = |bytes: fn(u32) -> [u8; 4]| json.chars().flat_map(|c| bytes(c.into())).collect::<Vec<u8>>();
+    let marked = |bytes: fn(u32) -> [u8; 4]| [&bytes(0xfeff)[..], &wide(bytes)].concat();
+    let [_, _, (_, little), (_, big)] = encodings(&json);
+    let unmarked = "is UTF-16 without a byte order mark; save it as UTF-8";
+    let cases: [(&[u8], &str); 10] = [
+        (b"{\n  \"name\": \"M\xfcller\" }", "is not UTF-8: the byte 0xFC at position 15, in line 2; save it as UTF-8"),
+        (&little[2..], unmarked),
+        (&big[2..], unmarked),
+        (&little[..little.len() - 1], "ends in the middle of a character"),
+        (b"\xff\xfe{\0\x00\xd8}\0", "has a character that is not whole"),
+        (&wide(u32::to_le_bytes), "is UTF-32; save it as UTF-8"),
+        (&wide(u32::to_be_bytes), "is UTF-32; save it as UTF-8"),
+        (&marked(u32::to_le_bytes), "is UTF-32; save it as UTF-8"),
+        (&marked(u32::to_be_bytes), "is UTF-32; save it as UTF-8"),
+        (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "is not a text"),
+    ];
+    for (bytes, hint) in cases {
+        let file = File::new("encoding.json", bytes);
+        let names = [(file.path(), file.path(), &b""[..]), ("-", "standard input", bytes)];
+        for (path, name, input) in names {
+            for arguments in [&["analyze", path][..], &[path]] {
+                let lines = refuse(arguments, input);
+                let [line] = &lines[..] else { panic!("{lines:?}") };
+                assert!(line.starts_with(&format!("{name}: ")) && line.contains(hint), "{line}; expected: {hint}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_file_that_is_too_large_is_refused_before_it_is_read() {
+    let file = File::new("large.json", b"");
+    // Takes no room on the disk; as memory there is not so much.
+    std::fs::OpenOptions::new().write(true).open(file.path()).unwrap().set_len(1 << 40).unwrap();
+    for arguments in [&["analyze", file.path()][..], &["link", file.path()], &[file.path()]] {
+        assert_eq!(refuse(arguments, ""), [format!("{}: is larger than 1 MB, which no scenario is", file.path())]);
+    }
+}
+
+/// Blanks without end, or nearly.
+struct Blanks(u64);
+
+impl Read for Blanks {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        self.0 += buffer.len() as u64;
+        buffer.fill(b' ');
+        Ok(if self.0 < 100_000_000 { buffer.len() } else { 0 })
+    }
+}
+
+#[test]
+fn standard_input_without_end_is_refused_after_what_a_scenario_may_have() {
+    let (mut input, mut errors) = (Blanks(0), Vec::new());
+    let streams = cli::Streams { input: &mut input, output: &mut Vec::new(), errors: &mut errors };
+    let start = cli::run_with(["tautline", "analyze", "-"].map(Into::into), streams);
+    assert!(matches!(start, cli::Start::Done(_)));
+    assert_eq!(String::from_utf8(errors).unwrap(), "standard input: is larger than 1 MB, which no scenario is\n");
+    assert!(input.0 < 2_000_000, "{} bytes were read", input.0);
 }
 
 #[test]

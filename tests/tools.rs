@@ -8,6 +8,7 @@ mod interface;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 
 use eframe::egui::accesskit::Role;
 use eframe::egui::{DroppedFile, Event, Key, Modifiers, Theme, Vec2};
@@ -92,24 +93,54 @@ fn all_values_reset_at_once_and_come_back_with_undo() {
     assert_eq!((app.state().scenario().platform.mass, app.state().scenario().gravity), (3.0, 1.62));
 }
 
-/// A file in memory, as if it had been dropped.
-#[derive(Debug)]
-struct Memory(PathBuf, Vec<u8>);
+/// A file on the disk for one test, as if it had been dropped.
+#[derive(Clone, Debug)]
+struct OnDisk {
+    path: PathBuf,
+    /// Somebody has asked for all that is in it, however long that takes.
+    read_whole: Arc<AtomicBool>,
+}
 
-impl DroppedFile for Memory {
-    fn path(&self) -> &Path {
-        &self.0
+impl OnDisk {
+    fn new(name: &str, bytes: &[u8]) -> Self {
+        static COUNT: AtomicU32 = AtomicU32::new(0);
+        let folder = format!("tautline-{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(folder).join(name);
+        std::fs::create_dir(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, bytes).unwrap();
+        Self { path, read_whole: Arc::default() }
     }
 
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        Ok(self.1.clone())
+    fn drop_on(&self, app: &mut App) {
+        app.input_mut().dropped_files.push(Arc::new(self.clone()));
+        app.step();
+    }
+
+    fn remove(&self) {
+        std::fs::remove_dir_all(self.path.parent().unwrap()).unwrap();
     }
 }
 
+impl DroppedFile for OnDisk {
+    fn path(&self) -> &Path {
+        &self.path
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        self.read_whole.store(true, Ordering::Relaxed);
+        let size = std::fs::metadata(&self.path).unwrap().len();
+        if size > 1_000_000_000 { Err("too much".into()) } else { Ok(std::fs::read(&self.path).unwrap()) }
+    }
+}
+
+/// Drops a file, and waits until it has been opened or refused.
 fn drop_file(app: &mut App, name: &str, bytes: &[u8]) {
-    app.input_mut().dropped_files.push(Arc::new(Memory(name.into(), bytes.to_vec())));
-    app.step();
+    let before = (app.state().scenario().clone(), app.state().notice().map(str::to_owned));
+    let file = OnDisk::new(name, bytes);
+    file.drop_on(app);
+    interface::wait(app, name, |app| (app.scenario(), app.notice()) != (&before.0, before.1.as_deref()));
     settle(app);
+    file.remove();
 }
 
 #[test]
@@ -139,7 +170,7 @@ fn what_is_no_scenario_is_refused_with_the_reason_and_the_robot_stays() {
     let cases: [(&[u8], &str); 4] = [
         (b"no JSON", "scenario"),
         (negative.as_bytes(), "platform.mass"),
-        (&[0xff, 0xfe, 0x00], "not a text"),
+        (&[0xff, 0xfe, 0x00], "in the middle of a character"),
         (&vec![b' '; 2_000_000], "larger than 1 MB"),
     ];
     for (bytes, reason) in cases {
@@ -160,6 +191,72 @@ fn a_pasted_scenario_is_opened() {
     app.event(Event::Paste(other.to_json()));
     settle(&mut app);
     assert_eq!(*app.state().scenario(), other);
+}
+
+/// Some programs begin a text with a byte order mark, on the clipboard, too.
+#[test]
+fn a_pasted_text_may_begin_with_a_mark() {
+    let mut app = app();
+    // What stands before links is no reason to take a scenario for one.
+    let other = Scenario { name: Some("As in …/#s=1".into()), ..presets::PRESETS[1].scenario() };
+    app.event(Event::Paste(format!("\u{feff}{}", other.to_json())));
+    settle(&mut app);
+    assert_eq!(*app.state().scenario(), other, "{:?}", app.state().notice());
+    app.event(Event::Paste(format!("\u{feff}#s={}", tautline::scenario::link::encode(&paper()))));
+    settle(&mut app);
+    assert_eq!(*app.state().scenario(), paper(), "{:?}", app.state().notice());
+    app.event(Event::Paste(" ".repeat(1_000_001)));
+    settle(&mut app);
+    assert_eq!(app.state().notice(), Some("The text is larger than 1 MB, which no scenario is."));
+}
+
+#[test]
+fn a_dropped_file_may_be_utf_16_with_a_mark() {
+    let mut app = app();
+    let other = Scenario { name: Some("Größe".into()), ..presets::PRESETS[1].scenario() };
+    let bytes: Vec<u8> = format!("\u{feff}{}", other.to_json()).encode_utf16().flat_map(u16::to_le_bytes).collect();
+    drop_file(&mut app, "windows.json", &bytes);
+    assert_eq!(*app.state().scenario(), other, "{:?}", app.state().notice());
+    drop_file(&mut app, "latin.json", b"{ \"name\": \"Gr\xf6\xdfe\" }");
+    let notice = app.state().notice().unwrap_or_default();
+    assert!(notice.contains("latin.json is not UTF-8: the byte 0xF6 at position 14"), "{notice}");
+}
+
+#[test]
+fn a_dropped_file_that_is_too_large_is_refused_without_being_read() {
+    let mut app = app();
+    let file = OnDisk::new("film.json", b"");
+    // Takes no room on the disk.
+    std::fs::OpenOptions::new().write(true).open(&file.path).unwrap().set_len(1 << 40).unwrap();
+    file.drop_on(&mut app);
+    interface::wait(&mut app, "a message", |app| app.notice().is_some());
+    assert_eq!(app.state().notice(), Some("film.json is larger than 1 MB, which no scenario is."));
+    assert!(!file.read_whole.load(Ordering::Relaxed));
+    file.remove();
+}
+
+#[cfg(unix)]
+#[test]
+fn a_dropped_file_is_read_while_the_window_goes_on() {
+    let mut app = app();
+    let file = OnDisk::new("slow.json", b"");
+    // Whoever reads a pipe waits until somebody writes; so do disks that are asleep, and networks.
+    std::fs::remove_file(&file.path).unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(&file.path).status().unwrap().success());
+    let (go, wait) = std::sync::mpsc::channel();
+    let other = presets::PRESETS[1].scenario();
+    let (path, json) = (file.path.clone(), other.to_json());
+    let writer = std::thread::spawn(move || {
+        let told = wait.recv_timeout(std::time::Duration::from_secs(20)).is_ok();
+        std::fs::write(path, json).unwrap();
+        told
+    });
+    file.drop_on(&mut app);
+    drag_platform(&mut app, Vec2::new(60.0, 0.0));
+    let _ = go.send(());
+    assert!(writer.join().unwrap(), "the window waited for the file");
+    interface::wait(&mut app, "the scenario", |app| *app.scenario() == other);
+    file.remove();
 }
 
 #[test]

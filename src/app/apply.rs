@@ -7,7 +7,7 @@ use super::state::Document;
 use super::{Command, Notice, Tautline, fields, number};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
-use crate::scenario::{Scenario, link};
+use crate::scenario::{Scenario, file, link};
 
 impl Tautline {
     pub(super) fn apply(&mut self, context: &Context, command: Command) {
@@ -136,6 +136,8 @@ impl Tautline {
 
 /// The scenario that a file's or the clipboard's text holds, or a link.
 pub(super) fn read(text: &str) -> Result<Scenario, String> {
+    file::check_size(text.len() as u64).map_err(|error| format!("The text {error}."))?;
+    let text = file::without_mark(text);
     match text.split_once(link::MARK) {
         // A scenario's own name may have such letters in it, but JSON begins with a brace.
         Some((_, fragment)) if !text.trim_start().starts_with('{') => {

@@ -16,7 +16,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, file};
 
 /// What the command line asks for.
 #[derive(Debug)]
@@ -165,13 +165,7 @@ fn read_scenario(path: &Path, input: &mut dyn Read) -> Result<Scenario, Vec<Stri
     let standard_input = path.as_os_str() == "-";
     let name = if standard_input { "standard input".into() } else { path.display().to_string() };
     let fault = |what: &dyn std::fmt::Display| format!("{name}: {what}");
-    let bytes = if standard_input {
-        let mut bytes = Vec::new();
-        input.read_to_end(&mut bytes).map(|_| bytes)
-    } else {
-        std::fs::read(path)
-    };
-    let bytes = bytes.map_err(|error| vec![fault(&format_args!("cannot be read: {error}"))])?;
-    let text = String::from_utf8(bytes).map_err(|error| vec![fault(&format_args!("is not UTF-8 text: {error}"))])?;
+    let text = if standard_input { file::read(input) } else { file::open(path) };
+    let text = text.map_err(|error| vec![fault(&error)])?;
     Scenario::from_json(&text).map_err(|faults| faults.0.iter().map(|one| fault(one)).collect())
 }

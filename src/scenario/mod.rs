@@ -1,5 +1,7 @@
-//! Everything that is JSON: the scenario file, the presets, the analysis report, options; and the scenario as a link.
+//! Everything that is JSON: the scenario file, the presets, the analysis report, options; the text in a file, and the
+//! scenario as a link.
 
+pub mod file;
 mod layout;
 pub mod link;
 pub mod options;

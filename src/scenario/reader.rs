@@ -12,6 +12,7 @@ use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
 use crate::robot::{Fault, Faults};
+use crate::scenario::file::without_mark;
 
 /// Longer values are cut in messages, in characters.
 const SHOWN: usize = 60;
@@ -35,8 +36,8 @@ impl Document {
     /// # Errors
     /// The first syntax error, with line and column.
     pub(super) fn new(name: &'static str, text: &str) -> Result<Self, Faults> {
-        // Some editors begin a file with a byte order mark.
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        // Not every way in is a file: texts are pasted, and handed over by programs.
+        let text = without_mark(text);
         let is_json = |text: &str| serde_json::from_str::<&RawValue>(text).map(|_| ());
         let syntax = is_json(text)
             .err()

@@ -16,7 +16,7 @@ pub struct Done {
 }
 
 /// Runs `tautline` with `arguments` and `input` on standard input.
-pub fn tautline(arguments: &[&str], input: &str) -> Done {
+pub fn tautline(arguments: &[&str], input: &(impl AsRef<[u8]> + ?Sized)) -> Done {
     let mut process = Command::new(env!("CARGO_BIN_EXE_tautline"))
         .args(arguments)
         .stdin(Stdio::piped())
@@ -25,21 +25,21 @@ pub fn tautline(arguments: &[&str], input: &str) -> Done {
         .spawn()
         .unwrap();
     // The program may end without reading.
-    let _ = process.stdin.take().unwrap().write_all(input.as_bytes());
+    let _ = process.stdin.take().unwrap().write_all(input.as_ref());
     let output = process.wait_with_output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
     Done { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
 }
 
 /// Runs it where all must go well and quietly; gives standard output.
-pub fn succeed(arguments: &[&str], input: &str) -> String {
+pub fn succeed(arguments: &[&str], input: &(impl AsRef<[u8]> + ?Sized)) -> String {
     let Done { code, out, err } = tautline(arguments, input);
     assert_eq!((code, err.as_str()), (Some(0), ""), "{arguments:?}");
     out
 }
 
 /// Runs it where the input is bad; gives the lines on standard error.
-pub fn refuse(arguments: &[&str], input: &str) -> Vec<String> {
+pub fn refuse(arguments: &[&str], input: &(impl AsRef<[u8]> + ?Sized)) -> Vec<String> {
     let Done { code, out, err } = tautline(arguments, input);
     assert_eq!((code, out.as_str()), (Some(2), ""), "{arguments:?}: {err}");
     assert!(!err.is_empty() && err.ends_with('\n'), "{err:?}");

@@ -12,9 +12,7 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 use eframe::egui::{Align2, Color32, ColorImage, Context, Event, FontId, Id, LayerId, Order, Pos2, Rect, Vec2};
 
 use crate::app::command::Command;
-
-/// A scenario file is a few kilobytes; whoever drops a film by mistake need not wait for it.
-const LARGEST: usize = 1_000_000;
+use crate::scenario::file::FileError;
 
 /// What comes of files that are being read.
 #[derive(Debug)]
@@ -38,14 +36,11 @@ struct Hand {
 }
 
 impl Hand {
-    fn over(&self, name: &str, bytes: Result<Vec<u8>, String>) {
-        let command = match bytes.map(String::from_utf8) {
-            Ok(Ok(text)) if text.len() <= LARGEST => Command::Read(text),
-            Ok(Ok(_)) => Command::Complain(format!("{name} is not a scenario: it is larger than 1 MB.")),
-            Ok(Err(_)) => Command::Complain(format!("{name} is not a scenario: it is not a text.")),
-            Err(reason) => Command::Complain(format!("{name} could not be read: {reason}")),
-        };
-        self.command(command);
+    fn over(&self, name: &str, text: Result<String, FileError>) {
+        self.command(match text {
+            Ok(text) => Command::Read(text),
+            Err(error) => Command::Complain(format!("{name} {error}.")),
+        });
     }
 
     fn saved(&self, name: &str, outcome: Result<Option<String>, String>) {
@@ -94,8 +89,9 @@ impl Files {
 
     /// What has been read since the last call, and what was dropped or pasted.
     pub fn poll(&self, context: &Context) -> Vec<Command> {
-        for file in context.input(|input| input.raw.dropped_files.clone()) {
-            system::read(self.hand(context), file);
+        let dropped = context.input(|input| input.raw.dropped_files.clone());
+        if !dropped.is_empty() {
+            system::read(self.hand(context), dropped);
         }
         let pasted = |event: &Event| match event {
             Event::Paste(text) => Some(Command::Read(text.clone())),

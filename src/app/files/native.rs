@@ -1,14 +1,14 @@
 //! The system's own file dialogs. They are asked for on the window's thread, as some systems demand, and waited for on
-//! another.
+//! another. Files are read and written there, too: a disk or a network may be slow.
 
 use std::path::Path;
-use std::sync::Arc;
 use std::thread;
 
-use eframe::egui::DroppedFile;
+use eframe::egui::DroppedFileHandle;
 use rfd::AsyncFileDialog;
 
 use super::Hand;
+use crate::scenario::file;
 
 fn name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
@@ -17,15 +17,20 @@ fn name(path: &Path) -> String {
 pub(super) fn open(hand: Hand) {
     let dialog = AsyncFileDialog::new().set_title("Open a scenario").add_filter("Scenario", &["json"]).pick_file();
     thread::spawn(move || {
-        if let Some(file) = pollster::block_on(dialog) {
-            hand.over(&file.file_name(), std::fs::read(file.path()).map_err(|error| error.to_string()));
+        if let Some(chosen) = pollster::block_on(dialog) {
+            hand.over(&chosen.file_name(), file::open(chosen.path()));
         }
     });
 }
 
-#[expect(clippy::needless_pass_by_value)] // As in the browser, where reading goes on after the call.
-pub(super) fn read(hand: Hand, file: Arc<dyn DroppedFile>) {
-    hand.over(&name(file.path()), file.bytes());
+pub(super) fn read(hand: Hand, files: Vec<DroppedFileHandle>) {
+    // One after the other, so that the last of them is the one on show.
+    thread::spawn(move || {
+        for dropped in files {
+            // Not by the handle itself, which does not tell a size before it reads.
+            hand.over(&name(dropped.path()), file::open(dropped.path()));
+        }
+    });
 }
 
 pub(super) fn save(hand: Hand, file: &str, bytes: Vec<u8>) {
