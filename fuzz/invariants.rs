@@ -17,6 +17,7 @@ use tautline::compute::protocol::{
 use tautline::compute::{Bench, Engine, Places};
 use tautline::robot::{Faults, Linearisation, Strain};
 use tautline::scenario::link::{self, LinkError};
+use tautline::scenario::report::StatusReport;
 use tautline::scenario::{Report, Scenario, presets};
 
 /// What a target does with bytes; whether it accepts them.
@@ -87,11 +88,14 @@ pub fn analysis(bytes: &[u8]) -> bool {
     let report = in_time(|| Report::analyze(&robot, &motion, MOST_SPEED));
     finite(&report);
     assert!(serde_json::from_str::<Report>(&serde_json::to_string(&report).unwrap()).is_ok(), "{report:?}");
-    if !report.feasible {
-        assert!(report.reason.is_some() && report.critical.is_none(), "{report:?}");
-        assert!(report.cables.is_empty() && report.eigenvalues.is_empty(), "{report:?}");
+    if report.cables.is_empty() {
+        assert!(report.reason.is_some() && report.critical.is_none() && report.eigenvalues.is_empty(), "{report:?}");
+        assert_eq!(report.status == Some(StatusReport::Infeasible), report.feasible == Some(false), "{report:?}");
         return true;
     }
+    assert_eq!((report.feasible, report.stable_at_rest), (Some(true), Some(true)), "{report:?}");
+    assert_eq!(report.status == Some(StatusReport::Found), report.critical.is_some(), "{report:?}");
+    assert!(report.wave_limit.as_ref().is_none_or(|limit| limit.speed > 0.0), "{report:?}");
     assert_eq!(report.cables.len(), robot.cables.len());
     for cable in &report.cables {
         assert_eq!(cable.nodes.len(), robot.elements + 1);
@@ -325,6 +329,12 @@ fn bound(study: &mut StudyChoice) {
                 *count = (*count).min(MOST_ELEMENTS / 4);
             }
             bound_speed(max_speed);
+        }
+        StudyChoice::Modes { spectra } => {
+            spectra.truncate(MOST_PLACES);
+            for (_, values) in spectra {
+                values.truncate(MOST_ELEMENTS);
+            }
         }
         StudyChoice::Map { asked: AskedChoice::Growth, .. } | StudyChoice::Campbell { .. } => {}
     }

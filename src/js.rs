@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::robot::{Motion, Robot};
 use crate::scenario::options::{MapOptions, max_speed};
-use crate::scenario::report::{CriticalReport, KindReport};
+use crate::scenario::report::{CriticalReport, KindReport, StatusReport, WaveLimitReport};
 use crate::scenario::{Report, Scenario};
 use crate::study::{Answer, Asked, Directions, Grid, Study, Verdict};
 
@@ -32,8 +32,9 @@ pub fn analyze(scenario: &str, options: &str) -> Text {
 pub fn critical_speed(scenario: &str, options: &str) -> Text {
     let (robot, motion) = read(scenario)?;
     let report = Report::critical_speed(&robot, &motion, max_speed(options)?);
-    let Report { feasible, reason, critical, searched_up_to, .. } = report;
-    Ok(serde_json::to_string(&CriticalSpeed { feasible, reason, critical: critical.into(), searched_up_to })?)
+    let Report { feasible, reason, critical, searched_up_to, wave_limit, status, .. } = report;
+    let critical = critical.into();
+    Ok(serde_json::to_string(&CriticalSpeed { feasible, reason, critical, searched_up_to, wave_limit, status })?)
 }
 
 /// A map over the workspace, to be computed row by row of its table, so that the page can do something else between.
@@ -71,23 +72,24 @@ impl MapStudy {
     /// # Errors
     /// None in practice: every row can be written.
     pub fn row(&self, index: usize) -> Text {
-        let verdict = match self.study.answer(&self.robot, index) {
-            Answer::Critical { verdict, .. } => verdict,
+        let (verdict, wave_limit) = match self.study.answer(&self.robot, index) {
+            Answer::Critical { verdict, wave_limit, .. } => (verdict, wave_limit),
             // Not what this study asks for.
-            Answer::Growth(_) | Answer::Spectrum(_) => Verdict::NotConverged,
+            Answer::Growth(_) | Answer::Spectrum(_) => (Verdict::Unknown, None),
         };
         let at = self.grid.position(index);
         let found = Found::from(verdict.critical().map(CriticalReport::from));
         let Found { speed, frequency_hz, kind, cable } = found;
-        let feasible = verdict.is_feasible();
         Ok(serde_json::to_string(&Row {
             x: at.x,
             y: at.y,
-            feasible,
+            feasible: verdict.feasible(),
             critical_speed: speed,
             frequency_hz,
             kind,
             cable,
+            wave_limit,
+            status: verdict.status().into(),
         })?)
     }
 }
@@ -98,22 +100,26 @@ fn read(scenario: &str) -> Result<(Robot, Motion), JsError> {
 
 #[derive(Serialize)]
 struct CriticalSpeed {
-    feasible: bool,
+    feasible: Option<bool>,
     reason: Option<String>,
     #[serde(flatten)]
     critical: Found,
     searched_up_to: f64,
+    wave_limit: Option<WaveLimitReport>,
+    status: Option<StatusReport>,
 }
 
 #[derive(Serialize)]
 struct Row {
     x: f64,
     y: f64,
-    feasible: bool,
+    feasible: Option<bool>,
     critical_speed: Option<f64>,
     frequency_hz: Option<f64>,
     kind: Option<KindReport>,
     cable: Option<usize>,
+    wave_limit: Option<f64>,
+    status: StatusReport,
 }
 
 /// A critical speed, or null for each of its fields.

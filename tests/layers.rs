@@ -137,6 +137,65 @@ fn rooms_use_only_those_before_them() {
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
+/// What the interface may name of the numerics: plain data, where things are, and sums over a handful of values. All else
+/// would compute on the thread that draws; it belongs to the engine or to the pool.
+const NAMED_BY_THE_APP: [&str; 13] = [
+    "robot",
+    "stability::Critical",
+    "stability::Kind",
+    "study::Grid",
+    "study::Line",
+    "study::Verdict",
+    "study::campbell::Track",
+    "study::compass",
+    "study::convergence",
+    "study::evenly",
+    "study::validation::Outcome",
+    "study::workspace",
+    "study::Directions",
+];
+
+/// The full names in a `use` of the numerics, or in a path, with `{…}` written out; a module that is imported to be used
+/// by its own name counts with everything below it.
+fn names(line: &str) -> Vec<String> {
+    let mut names = Vec::new();
+    for (at, _) in line.match_indices("crate::") {
+        let path = &line[at + "crate::".len()..];
+        let end = path.find(|c: char| !c.is_alphanumeric() && !"_:".contains(c)).unwrap_or(path.len());
+        let head = path[..end].trim_end_matches(':');
+        match path[end..].strip_prefix('{') {
+            Some(list) => {
+                let list = list.split('}').next().unwrap_or_default();
+                for name in list.split(',').map(str::trim).filter(|name| !name.is_empty()) {
+                    names.push(if name == "self" { head.into() } else { format!("{head}::{name}") });
+                }
+            }
+            None => names.push(head.into()),
+        }
+    }
+    names
+}
+
+#[test]
+fn the_app_does_not_compute() {
+    let mut faults = Vec::new();
+    for file in files("app") {
+        let text = std::fs::read_to_string(&file).expect("a source file");
+        // Lists go on over several lines.
+        let text: Vec<&str> = code(&text).into_iter().map(|(_, line)| line.trim()).collect();
+        for name in names(&text.join(" ")) {
+            let of_numerics = NUMERICS.iter().any(|room| name == *room || name.starts_with(&format!("{room}::")));
+            let below = |allowed: &str| name == allowed || name.starts_with(&format!("{allowed}::"));
+            if of_numerics && !NAMED_BY_THE_APP.into_iter().any(below) {
+                faults.push(format!("{}: `{name}` is a computation, or a whole module with such", file.display()));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    let told = names("use crate::study::campbell::{self, Track}; crate::mechanics::solve(robot)");
+    assert_eq!(told, ["study::campbell", "study::campbell::Track", "mechanics::solve"]);
+}
+
 #[test]
 fn numerics_are_plain_and_do_not_panic() {
     let mut faults = Vec::new();

@@ -8,9 +8,10 @@ use std::process::{Command, Stdio};
 
 use common::shell::{Done, File, refuse, succeed, tautline};
 use serde_json::{Value, json};
+use tautline::robot::TensionLaw;
 use tautline::scenario::{Scenario, presets};
 
-const COLUMNS: &str = "x,y,feasible,critical_speed,frequency_hz,kind,cable";
+const COLUMNS: &str = "x,y,feasible,critical_speed,frequency_hz,kind,cable,wave_limit,status";
 
 fn paper() -> Scenario {
     presets::find("paper").expect("a preset").scenario()
@@ -44,9 +45,14 @@ fn number(text: &str) -> f64 {
 fn check_row(row: &[String], scenario: &Scenario) {
     let json = succeed(&["analyze", "-", "--json"], &scenario.to_json());
     let report: Value = serde_json::from_str(&json).expect("a report");
-    let [x, y, feasible, speed, frequency, kind, cable] = row else { panic!("{row:?}") };
+    let [x, y, feasible, speed, frequency, kind, cable, wave_limit, status] = row else { panic!("{row:?}") };
     assert_eq!([number(x), number(y)].as_slice(), scenario.motion.position, "{row:?}");
-    assert_eq!(feasible.as_str(), report["feasible"].to_string(), "{row:?}");
+    assert_eq!(feasible.as_str(), report["feasible"].as_bool().map_or(String::new(), |b| b.to_string()), "{row:?}");
+    assert_eq!(json!(status), report["status"], "{row:?}");
+    match report["wave_limit"]["speed"].as_f64() {
+        Some(speed) => assert!((number(wave_limit) / speed - 1.0).abs() < 1e-15, "{row:?}"),
+        None => assert_eq!(wave_limit, "", "{row:?}"),
+    }
     let critical = &report["critical"];
     if critical.is_null() {
         assert_eq!([speed, frequency, kind, cable], ["", "", "", ""], "{row:?}");
@@ -89,7 +95,47 @@ fn one_point_is_in_the_middle_and_the_limit_is_kept() {
     let (_, rows) = map(&paper(), &["--nx", "1", "--ny", "1"]);
     check_row(&rows[0], &paper());
     let (_, rows) = map(&paper(), &["--nx", "1", "--ny", "1", "--max-speed", "11"]);
-    assert_eq!(rows, [["0", "0", "true", "", "", "", ""]]);
+    assert_eq!(rows[0][..7], ["0", "0", "true", "", "", "", ""]);
+    assert_eq!(rows[0][8], "none");
+}
+
+/// Equal columns before them would be all the same: `feasible` is the statics' answer, and empty where they could not be
+/// computed; the rest is about the search.
+#[test]
+fn rows_say_whether_a_critical_speed_was_found_and_why_not() {
+    let row = |scenario: &Scenario, more: &[&str]| {
+        let arguments = [&["map", "-", "--csv", "--nx", "1", "--ny", "1"], more].concat();
+        let Done { code, out, err } = tautline(&arguments, &scenario.to_json());
+        let row = table(&out).1.pop().expect("a row");
+        let told = "tautline: in 1 of 1 rows the critical speed could not be computed\n";
+        assert_eq!((code, err.as_str()), (Some(0), if row[8] == "failed" { told } else { "" }), "{row:?}");
+        assert_eq!([&row[3], &row[4], &row[5], &row[6]].map(String::is_empty), [row[8] != "found"; 4], "{row:?}");
+        (row[2].clone(), row[7].is_empty(), row[8].clone())
+    };
+    let told = |feasible: &str, no_wave_limit, status: &str| (feasible.to_owned(), no_wave_limit, status.to_owned());
+    assert_eq!(row(&paper(), &[]), told("true", false, "found"));
+    assert_eq!(row(&paper(), &["--max-speed", "11"]), told("true", false, "none"));
+    // A cable that cannot hold its own weight.
+    let mut slack = paper();
+    slack.cables[3].tension = TensionLaw::Constant(1.0);
+    assert_eq!(row(&slack, &[]), told("false", true, "infeasible"));
+    assert_eq!(row(&slack, &["--direction", "worst"]), told("false", true, "infeasible"));
+    assert_eq!(row(&beyond_numbers(), &[]), told("", true, "failed"));
+    assert_eq!(row(&beyond_numbers(), &["--direction", "worst"]), told("", true, "failed"));
+    let text = tautline(&["map", "-", "--nx", "1", "--ny", "1"], &beyond_numbers().to_json()).out;
+    assert!(text.contains("0 of 1 poses are feasible") && text.contains("1 could not be computed, marked ?"), "{text}");
+}
+
+/// A legal robot whose statics cannot be computed: it is as large as numbers are.
+fn beyond_numbers() -> Scenario {
+    let mut scenario = Scenario { gravity: 0.0, ..small() };
+    for cable in &mut scenario.cables {
+        cable.anchor = cable.anchor.map(|coordinate| coordinate * 1e152);
+        if cable.tension != TensionLaw::Equilibrium {
+            cable.tension = TensionLaw::Constant(1e-3);
+        }
+    }
+    scenario
 }
 
 #[test]

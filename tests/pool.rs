@@ -7,9 +7,11 @@ use std::sync::mpsc::{Receiver, channel};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
+use nalgebra::Complex;
 use tautline::compute::Pool;
 use tautline::compute::protocol::{
-    AskedChoice, DirectionsChoice, PlaceAnswer, Revision, StudyChoice, StudyJob, StudyNews, Topic, VerdictAnswer,
+    AskedChoice, DirectionsChoice, Missing, PlaceAnswer, Revision, StudyChoice, StudyJob, StudyNews, Topic,
+    VerdictAnswer,
 };
 use tautline::scenario::report::CriticalReport;
 use tautline::scenario::{Scenario, presets};
@@ -74,18 +76,21 @@ fn studies() -> Vec<(StudyChoice, Study)> {
 
 fn plain(answer: Answer) -> PlaceAnswer {
     match answer {
-        Answer::Critical { direction, verdict } => PlaceAnswer::Critical {
+        Answer::Critical { direction, verdict, wave_limit } => PlaceAnswer::Critical {
+            wave_limit,
             direction: [direction.x, direction.y],
             verdict: match verdict {
                 Verdict::Infeasible => VerdictAnswer::Infeasible,
+                Verdict::Unknown => VerdictAnswer::Unknown,
                 Verdict::NotConverged => VerdictAnswer::NotConverged,
                 Verdict::NoneUpTo(limit) => VerdictAnswer::NoneUpTo(limit),
                 Verdict::Critical(critical) => VerdictAnswer::Critical(CriticalReport::from(&critical)),
             },
         },
-        Answer::Growth(rate) => PlaceAnswer::Growth(rate),
+        Answer::Growth(rate) => PlaceAnswer::Growth(rate.map_err(Missing::from)),
         Answer::Spectrum(spectrum) => {
-            PlaceAnswer::Spectrum(spectrum.map(|values| values.iter().map(|value| [value.re, value.im]).collect()))
+            let pairs = |values: Vec<Complex<f64>>| values.iter().map(|value| [value.re, value.im]).collect();
+            PlaceAnswer::Spectrum(spectrum.map(pairs).map_err(Missing::from))
         }
     }
 }

@@ -63,11 +63,9 @@ impl Answers {
                 self.failed = None;
                 self.pose = Some((revision, *pose));
             }
-            // The search of an older state may fail after a newer pose was served.
-            Update::Failed(_) if self.pose.as_ref().is_some_and(|(known, _)| *known > revision) => {}
             Update::Failed(failed) => {
                 self.complete = Some((revision, failed.report.clone()));
-                self.failed = Some((revision, failed));
+                self.failed = Some((revision, *failed));
             }
             Update::Searching(speed) => self.searching = (revision == self.revision).then_some(speed),
             Update::Critical(answer) => self.take_critical(revision, answer),
@@ -82,12 +80,7 @@ impl Answers {
     fn take_critical(&mut self, revision: Revision, answer: CriticalAnswer) {
         // The pose may be newer: a search that was under way was allowed to finish.
         if let Some((_, pose)) = self.pose.as_ref().filter(|(known, _)| *known == revision) {
-            let report = Report {
-                critical: answer.critical.clone(),
-                searched_up_to: answer.searched_up_to,
-                ..pose.report.clone()
-            };
-            self.complete = Some((revision, report));
+            self.complete = Some((revision, answer.completed(pose.report.clone())));
         }
         self.critical = Some((revision, answer));
         while let Some((asked, at)) = self.asked.pop_front_if(|(asked, _)| *asked <= revision) {

@@ -8,8 +8,8 @@ use crate::app::Facts;
 use crate::app::series::{self, degrees};
 use crate::app::state::Plot;
 use crate::app::studies::Known;
-use crate::compute::protocol::{PlaceAnswer, StudyChoice, Topic, VerdictAnswer};
-use crate::scenario::report::KindReport;
+use crate::compute::protocol::{Missing, PlaceAnswer, StudyChoice, Topic, VerdictAnswer};
+use crate::scenario::report::StatusReport;
 use crate::study::evenly;
 
 /// Something to save.
@@ -57,23 +57,33 @@ impl Table {
 }
 
 /// The columns of what is known of a pose and direction, as on the command line.
-const VERDICT: [&str; 5] = ["feasible", "critical_speed", "frequency_hz", "kind", "cable"];
+const VERDICT: [&str; 7] = ["feasible", "critical_speed", "frequency_hz", "kind", "cable", "wave_limit", "status"];
 
-fn verdict(verdict: &VerdictAnswer) -> [String; 5] {
-    let none = String::new;
-    match verdict {
-        VerdictAnswer::Critical(critical) => {
-            let kind = match critical.kind {
-                KindReport::Flutter => "flutter",
-                KindReport::Divergence => "divergence",
-            };
-            let numbers = [critical.speed, critical.frequency_hz].map(|number| number.to_string());
-            let [speed, frequency] = numbers;
-            ["true".into(), speed, frequency, kind.into(), critical.cable.to_string()]
-        }
-        VerdictAnswer::Infeasible => ["false".into(), none(), none(), none(), none()],
-        VerdictAnswer::NotConverged | VerdictAnswer::NoneUpTo(_) => ["true".into(), none(), none(), none(), none()],
-    }
+fn verdict(verdict: &VerdictAnswer, wave_limit: Option<f64>) -> [String; 7] {
+    let critical = match verdict {
+        VerdictAnswer::Critical(critical) => Some(critical),
+        _ => None,
+    };
+    [
+        cell(verdict.feasible()),
+        cell(critical.map(|critical| critical.speed)),
+        cell(critical.map(|critical| critical.frequency_hz)),
+        cell(critical.map(|critical| critical.kind)),
+        cell(critical.map(|critical| critical.cable)),
+        cell(wave_limit),
+        verdict.status().to_string(),
+    ]
+}
+
+/// A value as text; empty where there is none.
+fn cell(value: Option<impl ToString>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
+}
+
+/// How the search for eigenvalues ended.
+fn status<T>(answer: &Result<T, Missing>) -> String {
+    let status = answer.as_ref().map_or_else(|missing| missing.status(), |_| StatusReport::Found);
+    status.to_string()
 }
 
 /// The numbers of a plot, where there are any.
@@ -136,9 +146,8 @@ fn modes(facts: Facts<'_>) -> Option<Table> {
 fn knobs(facts: Facts<'_>) -> Option<Table> {
     let (found, _) = facts.answers.sensitivities()?;
     let mut table = Table::new(&["parameter", "critical_speed_percent_per_percent", "frequency_percent_per_percent"]);
-    let text = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
     let rows = found.as_ref().ok()?.iter();
-    table.rows = rows.map(|one| vec![one.knob.to_string(), one.speed.to_string(), text(one.frequency)]).collect();
+    table.rows = rows.map(|one| vec![one.knob.to_string(), one.speed.to_string(), cell(one.frequency)]).collect();
     Some(table)
 }
 
@@ -167,6 +176,7 @@ fn places(known: &Known) -> Option<Table> {
             at = Box::new(move |i| vec![evenly(0.0, to, i, count).to_string()]);
             &["speed"]
         }
+        StudyChoice::Modes { .. } => return None,
         StudyChoice::Convergence { counts, .. } => {
             let counts = counts.clone();
             at = Box::new(move |i| counts.get(i).map(ToString::to_string).into_iter().collect());
@@ -175,21 +185,26 @@ fn places(known: &Known) -> Option<Table> {
     };
     let values: &[&str] = match answered().next()?.1 {
         PlaceAnswer::Critical { .. } => &VERDICT,
-        PlaceAnswer::Growth(_) => &["growth_rate"],
-        PlaceAnswer::Spectrum(_) => &["growth_rate", "frequency_hz"],
+        PlaceAnswer::Growth(_) => &["growth_rate", "status"],
+        PlaceAnswer::Spectrum(_) => &["growth_rate", "frequency_hz", "status"],
+        PlaceAnswer::Modes(_) => return None,
     };
     let mut table = Table::new(&[header, values].concat());
     for (i, answer) in answered() {
         let row = |values: &[String]| [at(i).as_slice(), values].concat();
         match answer {
-            PlaceAnswer::Critical { verdict: of, .. } => table.rows.push(row(&verdict(of))),
-            PlaceAnswer::Growth(rate) => {
-                table.rows.push(row(&[rate.map_or_else(String::new, |rate| rate.to_string())]));
-            }
+            PlaceAnswer::Critical { verdict: of, wave_limit, .. } => table.rows.push(row(&verdict(of, *wave_limit))),
+            PlaceAnswer::Growth(rate) => table.rows.push(row(&[cell(rate.ok()), status(rate)])),
             PlaceAnswer::Spectrum(eigenvalues) => {
-                let rows = eigenvalues.iter().flatten();
-                table.rows.extend(rows.map(|[re, im]| row(&[re.to_string(), (im / TAU).to_string()])));
+                let found = eigenvalues.iter().flatten();
+                let found = found.map(|[re, im]| row(&[re.to_string(), (im / TAU).to_string(), status(eigenvalues)]));
+                table.rows.extend(found);
+                // Where there is none, that is a row too.
+                if eigenvalues.is_err() {
+                    table.rows.push(row(&[String::new(), String::new(), status(eigenvalues)]));
+                }
             }
+            PlaceAnswer::Modes(_) => {}
         }
     }
     Some(table)
@@ -200,4 +215,63 @@ pub fn analysis(facts: Facts<'_>) -> Option<String> {
     let (report, _, current) = facts.answers.complete()?;
     let value: Value = serde_json::to_value(report).ok()?;
     current.then(|| serde_json::to_string_pretty(&value).ok()).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::studies::Wish;
+    use crate::compute::protocol::{AskedChoice, DirectionsChoice};
+    use crate::scenario::presets;
+    use crate::scenario::report::{CriticalReport, KindReport};
+
+    fn table(study: StudyChoice, answers: Vec<PlaceAnswer>) -> String {
+        let wish = Wish::new(&presets::PRESETS[0].scenario(), study);
+        let known = Known { places: answers.into_iter().map(Some).collect(), wish, version: (1, 1) };
+        places(&known).expect("a table").csv()
+    }
+
+    fn lines(csv: &str) -> Vec<&str> {
+        csv.lines().map(|line| line.trim_end_matches('\r')).collect()
+    }
+
+    /// As on the command line: none up to the limit, no equilibrium, and what could not be computed are told apart.
+    #[test]
+    fn tables_say_whether_something_was_found_and_why_not() {
+        let critical = CriticalReport { speed: 9.5, frequency_hz: 1.25, kind: KindReport::Flutter, cable: 4 };
+        let answer = |verdict, wave_limit| PlaceAnswer::Critical { direction: [1.0, 0.0], verdict, wave_limit };
+        let counts = vec![4, 6, 8, 10, 12];
+        let csv = table(
+            StudyChoice::Convergence { counts, max_speed: 40.0 },
+            vec![
+                answer(VerdictAnswer::Critical(critical), Some(11.5)),
+                answer(VerdictAnswer::NoneUpTo(40.0), Some(50.5)),
+                answer(VerdictAnswer::NotConverged, Some(12.5)),
+                answer(VerdictAnswer::Infeasible, None),
+                answer(VerdictAnswer::Unknown, None),
+            ],
+        );
+        assert_eq!(
+            lines(&csv),
+            [
+                "elements_per_cable,feasible,critical_speed,frequency_hz,kind,cable,wave_limit,status",
+                "4,true,9.5,1.25,flutter,4,11.5,found",
+                "6,true,,,,,50.5,none",
+                "8,true,,,,,12.5,failed",
+                "10,false,,,,,,infeasible",
+                "12,,,,,,,failed",
+            ]
+        );
+        let growth =
+            StudyChoice::Map { nx: 3, ny: 1, directions: DirectionsChoice::Motion, asked: AskedChoice::Growth };
+        let missing = [Err(Missing::Infeasible), Err(Missing::Failed)];
+        let rates = [Ok(-0.25)].into_iter().chain(missing).map(PlaceAnswer::Growth).collect();
+        let csv = table(growth, rates);
+        assert_eq!(lines(&csv)[0], "x,y,growth_rate,status");
+        let ends: Vec<&str> = lines(&csv)[1..].iter().filter_map(|line| line.splitn(3, ',').nth(2)).collect();
+        assert_eq!(ends, ["-0.25,found", ",infeasible", ",failed"]);
+        let spectra = vec![PlaceAnswer::Spectrum(Ok(vec![[-1.0, TAU]])), PlaceAnswer::Spectrum(Err(Missing::Failed))];
+        let csv = table(StudyChoice::Campbell { to: 2.0, count: 2 }, spectra);
+        assert_eq!(lines(&csv), ["speed,growth_rate,frequency_hz,status", "0,-1,1,found", "2,,,failed"]);
+    }
 }

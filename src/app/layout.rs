@@ -83,7 +83,7 @@ impl Tautline {
     fn plots(&mut self, ui: &mut Ui) {
         self.plots_open = true;
         let facts = self.present.facts(self.state.settings);
-        self.places.plot = panels::plots::ui(&mut self.joined, &mut self.state, ui, facts, &mut self.commands);
+        self.places.plot = panels::plots::ui(&mut self.state, ui, facts, &mut self.commands);
     }
 
     fn canvas(&mut self, ui: &mut Ui) {

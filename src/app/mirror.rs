@@ -13,6 +13,9 @@ pub fn summary(facts: Facts<'_>) -> Option<String> {
         CriticalState::Broken(reason) => format!("The analysis does not run: {reason}"),
         CriticalState::Failed(failed) => failed.report.reason.clone().unwrap_or_default(),
         CriticalState::Current(answer) => match &answer.critical {
+            None if answer.failure.is_some() => {
+                format!("Critical speed not known. {}", answer.failure.as_deref().unwrap_or_default())
+            }
             None => format!("No critical speed up to {} metres per second.", answer.searched_up_to),
             Some(critical) => {
                 let kind = match critical.kind {

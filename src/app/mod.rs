@@ -25,6 +25,8 @@ mod pinned;
 mod series;
 mod state;
 mod studies;
+#[cfg(test)]
+mod tests;
 mod theme;
 #[cfg(target_arch = "wasm32")]
 mod tone;
@@ -42,7 +44,7 @@ use history::History;
 use persist::Keeper;
 use pinned::Pinned;
 use state::{Document, Settings, UiState};
-use studies::{Order, Studies};
+use studies::{Joined, Order, Studies};
 
 use crate::compute::protocol::{Job, Reply, Request, Revision, Topic, Update, Which};
 use crate::compute::{Compute, Pool};
@@ -84,7 +86,6 @@ pub struct Tautline {
     places: Places,
     /// Pictures made of studies, kept from frame to frame.
     layer: canvas::map::Layer,
-    joined: panels::campbell::Modes,
     windows: windows::Runtime,
     revision: Revision,
     notice: Option<Notice>,
@@ -100,14 +101,16 @@ struct Present {
     document: Document,
     answers: Answers,
     studies: Studies,
+    /// The modes of the Campbell diagram.
+    joined: Joined,
     /// The design to compare with.
     pinned: Option<Pinned>,
 }
 
 impl Present {
     fn facts(&self, settings: Settings) -> Facts<'_> {
-        let Self { document, answers, studies, pinned } = self;
-        Facts { document, answers, studies, pinned: pinned.as_ref(), settings }
+        let Self { document, answers, studies, joined, pinned } = self;
+        Facts { document, answers, studies, joined, pinned: pinned.as_ref(), settings }
     }
 }
 
@@ -120,6 +123,8 @@ pub struct Facts<'a> {
     pub answers: &'a Answers,
     /// What is known of more than the pose.
     pub studies: &'a Studies,
+    /// The modes of the Campbell diagram.
+    pub joined: &'a Joined,
     /// The design to compare with.
     pub pinned: Option<&'a Pinned>,
     /// Units.
@@ -196,7 +201,13 @@ impl Tautline {
         history.step(&document);
         let mut app = Self {
             keeper: Keeper::new(last),
-            present: Present { document, answers: Answers::default(), studies: Studies::default(), pinned: None },
+            present: Present {
+                document,
+                answers: Answers::default(),
+                studies: Studies::default(),
+                joined: Joined::default(),
+                pinned: None,
+            },
             history,
             state: storage.and_then(persist::state).unwrap_or_default(),
             context: context.clone(),
@@ -209,7 +220,6 @@ impl Tautline {
             plots_open: false,
             places: Places::default(),
             layer: canvas::map::Layer::default(),
-            joined: panels::campbell::Modes::default(),
             windows: windows::Runtime::default(),
             revision: 0,
             notice,
@@ -293,7 +303,9 @@ impl Tautline {
             return;
         }
         self.analyze();
-        self.complain(format!("The computation was lost ({reason}) and has been started again."));
+        if self.compute.is_some() {
+            self.complain(format!("The computation was lost ({reason}) and has been started again."));
+        }
     }
 
     fn submit(&mut self, request: &Request) {
@@ -322,6 +334,10 @@ impl Tautline {
         // The pool has one study of each topic: the pinned design's go first, to make room for the present one's.
         let for_pinned = self.present.pinned.as_mut().map(|pinned| pinned.want(idle, &self.state, plot));
         self.carry_out(for_pinned.into_iter().flatten().chain(orders));
+        let diagram =
+            (plot == Some(state::Plot::Campbell)).then(|| self.present.studies.shown(Topic::Campbell)).flatten();
+        let order = self.present.joined.want(diagram.map(|shown| shown.known), self.state.campbell_hz);
+        self.carry_out(order);
         // Both want all of the machine; who drags must not wait. Between two poses the studies go on, so that the line
         // follows the drag.
         self.pool.hold(matches!(self.present.answers.critical(), CriticalState::Recomputing { .. }));
@@ -329,6 +345,7 @@ impl Tautline {
             if let Some(pinned) = &mut self.present.pinned {
                 pinned.take(news.clone());
             }
+            self.present.joined.take(&news);
             self.present.studies.take(news);
         }
         if self.pinning && self.present.answers.all_current() {
@@ -347,8 +364,9 @@ impl Tautline {
                     continue;
                 }
                 Reply { update: Update::Broken(reason), .. } => {
+                    // What else this engine has said, such as that it is lost in another way too, is not about the next one.
                     self.engine_lost(reason);
-                    continue;
+                    return;
                 }
                 reply => reply,
             };
@@ -430,7 +448,8 @@ impl eframe::App for Tautline {
         }
         self.study_on();
         self.keep(context, frame);
-        if self.present.studies.is_working() || self.present.pinned.as_ref().is_some_and(Pinned::is_working) {
+        let working = self.present.studies.is_working() || self.present.joined.is_working();
+        if working || self.present.pinned.as_ref().is_some_and(Pinned::is_working) {
             context.request_repaint_after(HEARTBEAT);
         }
         self.animate(context);

@@ -13,6 +13,7 @@ use crate::app::command::Command;
 use crate::app::studies::{Known, Stage, Studies, TOPICS};
 use crate::app::{Facts, mirror};
 use crate::compute::protocol::{PlaceAnswer, Revision, Topic, VerdictAnswer};
+use crate::scenario::report::{CriticalReport, StatusReport};
 use crate::scenario::{Scenario, link};
 
 /// The element that mirrors the main results as text.
@@ -205,26 +206,29 @@ fn name(topic: Topic) -> &'static str {
         Topic::Polar => "polar",
         Topic::Campbell => "campbell",
         Topic::Convergence => "convergence",
+        Topic::Modes => "modes",
     }
 }
 
-/// The answered points of a map, each [x, y, feasible, critical speed, frequency, kind, cable] with null where there is
-/// none, or [x, y, growth rate].
+/// The answered points of a map, each [x, y, feasible, critical speed, frequency, kind, cable, wave limit, status] with
+/// null where there is none, or [x, y, growth rate, status].
 fn rows(known: &Known) -> Vec<Value> {
     let Some(grid) = known.wish.grid() else { return Vec::new() };
     let row = |(index, answer): (usize, &Option<PlaceAnswer>)| {
         let at = grid.position(index);
         match answer.as_ref()? {
-            PlaceAnswer::Critical { verdict: VerdictAnswer::Critical(critical), .. } => {
-                let (speed, frequency) = (critical.speed, critical.frequency_hz);
-                Some(json!([at.x, at.y, true, speed, frequency, critical.kind, critical.cable]))
+            PlaceAnswer::Critical { verdict, wave_limit, .. } => {
+                let (feasible, status) = (verdict.feasible(), verdict.status());
+                Some(match verdict {
+                    VerdictAnswer::Critical(CriticalReport { speed, frequency_hz, kind, cable }) => {
+                        json!([at.x, at.y, feasible, speed, frequency_hz, kind, cable, wave_limit, status])
+                    }
+                    _ => json!([at.x, at.y, feasible, null, null, null, null, wave_limit, status]),
+                })
             }
-            PlaceAnswer::Critical { verdict, .. } => {
-                let feasible = *verdict != VerdictAnswer::Infeasible;
-                Some(json!([at.x, at.y, feasible, null, null, null, null]))
-            }
-            PlaceAnswer::Growth(rate) => Some(json!([at.x, at.y, rate])),
-            PlaceAnswer::Spectrum(_) => None,
+            PlaceAnswer::Growth(Ok(rate)) => Some(json!([at.x, at.y, rate, StatusReport::Found])),
+            PlaceAnswer::Growth(Err(missing)) => Some(json!([at.x, at.y, null, missing.status()])),
+            PlaceAnswer::Spectrum(_) | PlaceAnswer::Modes(_) => None,
         }
     };
     known.places.iter().enumerate().filter_map(row).collect()

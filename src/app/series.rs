@@ -8,7 +8,7 @@ use crate::app::studies::Known;
 use crate::compute::protocol::{PlaceAnswer, StudyChoice, VerdictAnswer};
 use crate::scenario::report::{CriticalReport, KindReport, sentence};
 use crate::stability::{Critical, Kind};
-use crate::study::campbell::{self, Track};
+use crate::study::campbell::Track;
 use crate::study::convergence::{self, Convergence};
 use crate::study::{Verdict, compass, evenly};
 
@@ -189,31 +189,26 @@ pub fn spectra(known: &Known) -> Vec<(f64, [f64; 2])> {
     let StudyChoice::Campbell { to, count } = known.wish.study else { return Vec::new() };
     let mut all = Vec::new();
     for (i, answer) in known.places.iter().enumerate() {
-        if let Some(PlaceAnswer::Spectrum(Some(values))) = answer {
+        if let Some(PlaceAnswer::Spectrum(Ok(values))) = answer {
             all.extend(values.iter().map(|&value| (evenly(0.0, to, i, count), value)));
         }
     }
     all
 }
 
-/// The modes of a Campbell diagram up to `highest` Hz. Speeds that are not answered yet are left out.
-pub fn tracks(known: &Known, highest: f64) -> Vec<Track> {
+/// The spectra of a Campbell diagram up to `highest` Hz, to be joined to modes: speeds in m/s and [Re λ, Im λ] in 1/s. Speeds
+/// that are not answered yet are left out.
+pub fn spectra_up_to(known: &Known, highest: f64) -> Vec<(f64, Vec<[f64; 2]>)> {
     let StudyChoice::Campbell { to, count } = known.wish.study else { return Vec::new() };
     // Somewhat more than is drawn, so that modes do not end below the edge; all of them would take long to join.
-    let drawn = |value: &[f64; 2]| value[1] <= 1.5 * highest * TAU;
-    let spectra: Vec<(f64, Vec<Complex<f64>>)> = known
-        .places
-        .iter()
-        .enumerate()
-        .filter_map(|(i, answer)| match answer {
-            Some(PlaceAnswer::Spectrum(Some(values))) => {
-                let values = values.iter().filter(|value| drawn(value)).map(|&[re, im]| Complex::new(re, im));
-                Some((evenly(0.0, to, i, count), values.collect()))
-            }
-            _ => None,
-        })
-        .collect();
-    campbell::track(&spectra)
+    let drawn = |value: &&[f64; 2]| value[1] <= 1.5 * highest * TAU;
+    let spectrum = |(i, answer): (usize, &Option<PlaceAnswer>)| match answer {
+        Some(PlaceAnswer::Spectrum(Ok(values))) => {
+            Some((evenly(0.0, to, i, count), values.iter().filter(drawn).copied().collect()))
+        }
+        _ => None,
+    };
+    known.places.iter().enumerate().filter_map(spectrum).collect()
 }
 
 /// A part of a mode's line on which it is stable throughout, or unstable throughout.
@@ -283,6 +278,7 @@ impl Meshes {
 fn plain(verdict: &VerdictAnswer) -> Verdict {
     match verdict {
         VerdictAnswer::Infeasible => Verdict::Infeasible,
+        VerdictAnswer::Unknown => Verdict::Unknown,
         VerdictAnswer::NotConverged => Verdict::NotConverged,
         VerdictAnswer::NoneUpTo(speed) => Verdict::NoneUpTo(*speed),
         VerdictAnswer::Critical(critical) => Verdict::Critical(Critical {
@@ -308,11 +304,11 @@ mod tests {
 
     fn critical(speed: f64, frequency_hz: f64) -> PlaceAnswer {
         let critical = CriticalReport { speed, frequency_hz, kind: KindReport::Flutter, cable: 4 };
-        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Critical(critical) }
+        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Critical(critical), wave_limit: None }
     }
 
     fn nothing() -> PlaceAnswer {
-        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Infeasible }
+        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Infeasible, wave_limit: None }
     }
 
     fn known(study: StudyChoice, direction: [f64; 2], answer: impl Fn(usize) -> Option<PlaceAnswer>) -> Known {
@@ -368,9 +364,12 @@ mod tests {
         let study = StudyChoice::Campbell { to: 4.0, count: 5 };
         let answer = |i: usize| {
             let re = i as f64 - 1.5;
-            (i != 2).then(|| PlaceAnswer::Spectrum(Some(vec![[re, 10.0], [-1.0, 1e4]])))
+            (i != 2).then(|| PlaceAnswer::Spectrum(Ok(vec![[re, 10.0], [-1.0, 1e4]])))
         };
-        let tracks = tracks(&known(study, [1.0, 0.0], answer), 5.0);
+        let spectra = spectra_up_to(&known(study, [1.0, 0.0], answer), 5.0);
+        let value = |&[re, im]: &[f64; 2]| Complex::new(re, im);
+        let spectra: Vec<_> = spectra.iter().map(|(at, values)| (*at, values.iter().map(value).collect())).collect();
+        let tracks = crate::study::campbell::track(&spectra);
         assert_eq!(tracks.len(), 1, "what is far above the highest frequency is left out");
         let at = |speed: f64| (speed, Complex::new(speed - 1.5, 10.0));
         let [stable, unstable] = &pieces(&tracks[0])[..] else { panic!("two pieces") };

@@ -9,7 +9,7 @@ use crate::cli::text::{CAVEAT, critical_sentence, digits};
 use crate::cli::{Answer, Output, read_scenario};
 use crate::robot::Vec2;
 use crate::scenario::options::MOST_POINTS;
-use crate::study::{Answer as Found, Asked, Directions, Grid, Study, Verdict, evenly};
+use crate::study::{Answer as Found, Asked, Directions, Grid, Status, Study, Verdict, evenly};
 
 /// Points in a row or column.
 const POINTS: std::ops::RangeInclusive<i64> = 1..=MOST_POINTS as i64;
@@ -39,8 +39,9 @@ pub(super) struct Args {
 }
 
 const AFTER_HELP: &str = "\
-CSV columns: x,y,feasible,critical_speed,frequency_hz,kind,cable
-SI units, cables counted from 1, empty where there is none.";
+CSV columns: x,y,feasible,critical_speed,frequency_hz,kind,cable,wave_limit,status
+SI units, cables counted from 1, empty where there is none. status: found, none (up to --max-speed), infeasible, or
+failed (could not be computed).";
 
 fn direction(text: &str) -> Result<Directions, String> {
     if let Some((_, directions)) = Directions::WORDS.iter().find(|(word, _)| *word == text) {
@@ -61,12 +62,12 @@ pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
     let limit = args.options.max_speed;
     let study = Study::Map { grid, directions, asked: Asked::Critical { limit } };
     let row = move |index| {
-        let verdict = match study.answer(&robot, index) {
-            Found::Critical { verdict, .. } => verdict,
+        let (verdict, wave_limit) = match study.answer(&robot, index) {
+            Found::Critical { verdict, wave_limit, .. } => (verdict, wave_limit),
             // Not what this study asks for.
-            Found::Growth(_) | Found::Spectrum(_) => Verdict::NotConverged,
+            Found::Growth(_) | Found::Spectrum(_) => (Verdict::Unknown, None),
         };
-        Row { swept: Vec::new(), position: grid.position(index), verdict }
+        Row { swept: Vec::new(), position: grid.position(index), verdict, wave_limit }
     };
     let form = if args.options.csv {
         Form::Csv { header: COLUMNS.into() }
@@ -105,7 +106,7 @@ fn write_picture(
     let wide = grid.nx > WIDEST_TABLE;
     let cell = |row: &Row| match (&row.verdict, range) {
         (Verdict::Infeasible, _) => "·".into(),
-        (Verdict::NotConverged, _) => "?".into(),
+        (Verdict::Unknown | Verdict::NotConverged, _) => "?".into(),
         (Verdict::Critical(critical), Some((low, high))) if wide => tenth(critical.speed, low, high).to_string(),
         (Verdict::Critical(critical), _) => format!("{:.2}", critical.speed),
         (Verdict::NoneUpTo(_), _) => "+".into(),
@@ -136,8 +137,12 @@ fn write_picture(
         writeln!(text, "0 to 9: tenths of the range from {} to {} m/s", digits(low, 4), digits(high, 4))?;
     }
     let number = |which: fn(&Verdict) -> bool| rows.iter().filter(|row| which(&row.verdict)).count();
-    let infeasible = number(|verdict| *verdict == Verdict::Infeasible);
-    writeln!(text, "{} of {} poses are feasible; · marks the others", rows.len() - infeasible, rows.len())?;
+    let feasible = number(|verdict| verdict.feasible() == Some(true));
+    writeln!(text, "{feasible} of {} poses are feasible; · marks the others", rows.len())?;
+    let failed = number(|verdict| verdict.status() == Status::Failed);
+    if failed > 0 {
+        writeln!(text, "{failed} could not be computed, marked ?")?;
+    }
     for (what, extreme) in [("Lowest", lowest), ("Highest", highest)] {
         if let Some((row, critical)) = extreme.and_then(|(_, row)| Some((row, row.critical()?))) {
             let (x, y) = (digits(row.position.x, 4), digits(row.position.y, 4));

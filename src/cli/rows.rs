@@ -13,11 +13,11 @@ use std::time::Duration;
 use crate::cli::progress::Progress;
 use crate::cli::{NOT_WRITTEN, complain, max_speed, write_out};
 use crate::robot::Vec2;
-use crate::scenario::report::{CriticalReport, DEFAULT_MAX_SPEED, KindReport};
-use crate::study::Verdict;
+use crate::scenario::report::{CriticalReport, DEFAULT_MAX_SPEED, StatusReport};
+use crate::study::{Status, Verdict};
 
 /// The columns of every table in CSV, after those of the swept numbers.
-pub(super) const COLUMNS: &str = "x,y,feasible,critical_speed,frequency_hz,kind,cable";
+pub(super) const COLUMNS: &str = "x,y,feasible,critical_speed,frequency_hz,kind,cable,wave_limit,status";
 /// The exit code after Ctrl-C: what shells give a program that ends by that signal.
 const INTERRUPTED: u8 = 130;
 /// How often the program looks whether it is to stop.
@@ -31,6 +31,8 @@ pub(super) struct Row {
     pub(super) position: Vec2,
     /// What is known of it.
     pub(super) verdict: Verdict,
+    /// Its wave limit in m/s, where it has one.
+    pub(super) wave_limit: Option<f64>,
 }
 
 impl Row {
@@ -46,22 +48,19 @@ impl Row {
             line += &exact(value);
             line.push(',');
         }
+        if let Some(feasible) = self.verdict.feasible() {
+            line += if feasible { "true" } else { "false" };
+        }
         // Writing to a string does not fail.
         let _ = match self.critical() {
             Some(CriticalReport { speed, frequency_hz, kind, cable }) => {
-                write!(line, "true,{},{},{},{cable}", exact(speed), exact(frequency_hz), word(kind))
+                write!(line, ",{},{},{kind},{cable}", exact(speed), exact(frequency_hz))
             }
-            None => write!(line, "{},,,,", self.verdict.is_feasible()),
+            None => write!(line, ",,,,"),
         };
+        let wave_limit = self.wave_limit.map(exact).unwrap_or_default();
+        let _ = write!(line, ",{wave_limit},{}", StatusReport::from(self.verdict.status()));
         line
-    }
-}
-
-/// The word for how stability is lost, as `analyze --json` has it.
-pub(super) fn word(kind: KindReport) -> &'static str {
-    match kind {
-        KindReport::Flutter => "flutter",
-        KindReport::Divergence => "divergence",
     }
 }
 
@@ -141,7 +140,7 @@ pub(super) fn print(rows: Rows, output: &mut dyn Write, errors: &mut dyn Write) 
         }
         while let Some(row) = early.remove(&done) {
             done += 1;
-            unknown += usize::from(row.verdict == Verdict::NotConverged);
+            unknown += usize::from(row.verdict.status() == Status::Failed);
             if csv {
                 text += &row.csv();
                 text.push('\n');
@@ -153,7 +152,7 @@ pub(super) fn print(rows: Rows, output: &mut dyn Write, errors: &mut dyn Write) 
     }
     progress.clear();
     if unknown > 0 {
-        complain(errors, &format!("tautline: in {unknown} of {count} rows the eigenvalues could not be computed"));
+        complain(errors, &format!("tautline: in {unknown} of {count} rows the critical speed could not be computed"));
     }
     match layout.map(|layout| write_out(output, errors, &layout(&kept))) {
         Some(Err(code)) => code,

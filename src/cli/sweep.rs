@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use crate::cli::rows::{COLUMNS, Form, Options, Row, Rows, exact, word};
+use crate::cli::rows::{COLUMNS, Form, Options, Row, Rows, exact};
 use crate::cli::text::digits;
 use crate::cli::{Answer, Output, read_scenario};
 use crate::robot::{Faults, Vec2};
@@ -38,7 +38,8 @@ pub(super) struct Args {
 }
 
 const AFTER_HELP: &str = "\
-CSV columns: one per swept number, named by its path, then x,y,feasible,critical_speed,frequency_hz,kind,cable
+CSV columns: one per swept number, named by its path, then
+x,y,feasible,critical_speed,frequency_hz,kind,cable,wave_limit,status (see `tautline map --help`)
 SI units, cables counted from 1, empty where there is none.
 
 Each shard prints the line with the names of the columns. To join them:
@@ -240,9 +241,10 @@ impl Sweep {
         let read = self.scenario(axes.into_iter().zip(values.iter().copied())).and_then(|scenario| scenario.to_robot());
         match read {
             Ok((robot, motion)) => {
-                Row { swept: values, position: motion.position(), verdict: verdict(&robot, &motion, limit) }
+                let (verdict, wave_limit) = verdict(&robot, &motion, limit);
+                Row { swept: values, position: motion.position(), verdict, wave_limit }
             }
-            Err(_) => Row { swept: values, position: Vec2::zeros(), verdict: Verdict::NotConverged },
+            Err(_) => Row { swept: values, position: Vec2::zeros(), verdict: Verdict::Unknown, wave_limit: None },
         }
     }
 }
@@ -313,12 +315,12 @@ fn table(paths: &[String], limit: f64, rows: &[Row]) -> String {
         }
         let _ = match (&row.verdict, row.critical()) {
             (_, Some(critical)) => {
-                let frequency = format!("{} at {} Hz", word(critical.kind), digits(critical.frequency_hz, 4));
+                let frequency = format!("{} at {} Hz", critical.kind, digits(critical.frequency_hz, 4));
                 writeln!(text, "{:>8} m/s, {frequency}, cable {}", digits(critical.speed, 5), critical.cable)
             }
             (Verdict::Infeasible, _) => writeln!(text, "not feasible"),
             (Verdict::NoneUpTo(_), _) => writeln!(text, "none found up to {} m/s", digits(limit, 6)),
-            (Verdict::NotConverged | Verdict::Critical(_), _) => writeln!(text, "not known"),
+            (Verdict::Unknown | Verdict::NotConverged | Verdict::Critical(_), _) => writeln!(text, "not known"),
         };
     }
     text

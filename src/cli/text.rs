@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Write as _};
 
 use crate::robot::{Linearisation, Motion, Strain, TensionLaw};
-use crate::scenario::report::{CriticalReport, KindReport};
+use crate::scenario::report::{CriticalReport, KindReport, StatusReport, WaveLimitReport};
 use crate::scenario::{Report, Scenario};
 
 /// Slower changes of length per metre of travel are none.
@@ -23,16 +23,26 @@ pub(super) fn report(scenario: &Scenario, motion: &Motion, report: &Report) -> S
 
 fn write(text: &mut String, scenario: &Scenario, motion: &Motion, report: &Report) -> fmt::Result {
     heading(text, scenario, motion)?;
-    if !report.feasible {
-        writeln!(text, "\nNot feasible. {}", report.reason.as_deref().unwrap_or_default())?;
-        return Ok(());
+    let reason = report.reason.as_deref().unwrap_or_default();
+    if report.cables.is_empty() {
+        let what = if report.feasible == Some(false) { "Not feasible" } else { "Not computed" };
+        return writeln!(text, "\n{what}. {reason}");
     }
     cables(text, scenario, report)?;
     stability(text, report)?;
-    match (&report.critical, &report.reason) {
+    match (&report.critical, report.status) {
         (Some(critical), _) => critical_speed(text, report, critical)?,
-        (None, Some(reason)) => writeln!(text, "\nCritical speed: not known. {reason}")?,
-        (None, None) => writeln!(text, "Critical speed: none found up to {} m/s", digits(report.searched_up_to, 6))?,
+        (None, Some(StatusReport::None)) => {
+            writeln!(text, "Critical speed: none found up to {} m/s", digits(report.searched_up_to, 6))?;
+        }
+        (None, _) => writeln!(text, "Critical speed: not known. {reason}")?,
+    }
+    if let Some(WaveLimitReport { speed, cable, .. }) = report.wave_limit {
+        let speed = digits(speed, 4);
+        writeln!(
+            text,
+            "Wave limit: {speed} m/s, where the winch of cable {cable} reels as fast as waves run along it"
+        )?;
     }
     writeln!(text, "\n{CAVEAT}")
 }
@@ -110,10 +120,16 @@ fn reeling(length_rate: f64) -> &'static str {
 
 fn stability(text: &mut String, report: &Report) -> fmt::Result {
     let rightmost = report.eigenvalues.iter().max_by(|a, b| a[0].total_cmp(&b[0]));
-    let Some(&[re, im]) = rightmost else { return Ok(()) };
-    let verdict = if report.stable == Some(true) { "stable" } else { "not stable" };
-    let growth = digits(re, 4);
-    writeln!(text, "\nAt {} m/s: {verdict}, largest growth rate {growth} 1/s", digits(report.speed, 6))?;
+    let speed = digits(report.speed, 6);
+    let verdict = match report.stable {
+        Some(true) => "stable",
+        Some(false) => "not stable",
+        None => "not known whether it is stable",
+    };
+    let Some(&[re, im]) = rightmost else {
+        return writeln!(text, "\nAt {speed} m/s: {verdict}; the eigenvalues could not be computed");
+    };
+    writeln!(text, "\nAt {speed} m/s: {verdict}, largest growth rate {} 1/s", digits(re, 4))?;
     let size = re.hypot(im);
     let damping_ratio = if size == 0.0 { 0.0 } else { -re / size };
     let frequency = digits(im.abs() / TAU, 4);

@@ -16,9 +16,9 @@ use super::protocol::{
 };
 use crate::mechanics::CableShape;
 use crate::robot::{Motion, Robot, Vec2};
-use crate::scenario::report::{SensitivityReport, failure_sentence, sentence};
+use crate::scenario::report::{CriticalReport, SensitivityReport, StatusReport, sentence};
 use crate::scenario::{Report, Scenario};
-use crate::stability::{self, CriticalSearch, NotConverged, Outcome, Polarisation, Spectrum};
+use crate::stability::{self, CriticalSearch, Outcome, Polarisation, Spectrum};
 use crate::study::validation::CHECKS;
 use crate::study::{Local, sensitivities};
 
@@ -73,8 +73,8 @@ struct Pose {
     limit: f64,
     submitted: Instant,
     stage: Stage,
-    /// What the search has found.
-    outcome: Option<Outcome>,
+    /// What the search has found, once it has ended; or why it has failed, as a sentence.
+    outcome: Option<Result<Outcome, String>>,
 }
 
 enum Stage {
@@ -156,7 +156,7 @@ impl Engine {
             Err(failed) => {
                 // Whatever is being searched for belongs to a pose that has been left.
                 self.running = None;
-                vec![Reply { revision: job.revision, update: Update::Failed(*failed) }]
+                vec![Reply { revision: job.revision, update: Update::Failed(failed) }]
             }
         }
     }
@@ -181,19 +181,19 @@ impl Pose {
     fn new(job: &Job, submitted: Instant) -> Result<Self, Box<Failed>> {
         let limit = search_limit(job.max_speed);
         let searched_up_to = limit.clone().unwrap_or_default();
-        let failed = |reason: String, speed: f64| Failed {
-            report: Report { searched_up_to, ..Report::failed(&reason, speed) },
-            cable: None,
-            shapes: Vec::new(),
+        let refused = |reason: &str| {
+            let status = Some(StatusReport::Failed);
+            let report = Report { status, searched_up_to, ..Report::unknown(reason, 0.0) };
+            Box::new(Failed { report, cable: None, shapes: Vec::new() })
         };
-        let limit = limit.map_err(|reason| Box::new(failed(sentence(&reason), 0.0)))?;
+        let limit = limit.map_err(|reason| refused(&sentence(&reason)))?;
         let parsed = Scenario::from_json(&job.scenario).and_then(|scenario| scenario.to_robot());
-        let (robot, motion) = parsed.map_err(|faults| Box::new(failed(faults.to_string(), 0.0)))?;
+        let (robot, motion) = parsed.map_err(|faults| refused(&faults.to_string()))?;
         let local = Local::new(&robot, &motion).map_err(|failure| {
             Box::new(Failed {
+                report: Report::without_pose(&failure, motion.speed(), limit),
                 cable: failure.reason.cable(),
                 shapes: failure.cables.iter().map(|shape| shape.as_ref().map(drawn)).collect(),
-                ..failed(failure_sentence(&failure), motion.speed())
             })
         })?;
         let begun = Instant::now();
@@ -244,7 +244,7 @@ impl Pose {
 
     /// The chosen mode's shape: the critical one at its speed, others at the scenario's.
     fn shape(&self) -> Option<Reply> {
-        if let (Which::Critical, Some(Outcome::Found(critical))) = (self.choice.which, &self.outcome) {
+        if let (Which::Critical, Some(Ok(Outcome::Found(critical)))) = (self.choice.which, &self.outcome) {
             let mode = self.mode(critical.speed, critical.eigenvalue);
             return Some(self.reply(Update::Shape(Box::new(ModeShape::new(&mode, critical.speed, true)))));
         }
@@ -270,8 +270,12 @@ impl Pose {
 
     /// What each parameter does to the critical speed that was found, or why that cannot be told.
     fn sensitivities(&self) -> Result<Vec<SensitivityReport>, String> {
-        let Some(Outcome::Found(critical)) = &self.outcome else {
-            return Err(format!("There is no critical speed up to {} m/s.", self.limit));
+        let critical = match &self.outcome {
+            Some(Ok(Outcome::Found(critical))) => critical,
+            Some(Err(_)) => return Err("The critical speed is not known.".into()),
+            Some(Ok(Outcome::NoneUpTo(_))) | None => {
+                return Err(format!("There is no critical speed up to {} m/s.", self.limit));
+            }
         };
         let found = sensitivities(&self.robot, &self.motion, critical);
         Ok(found.map_err(|reason| sentence(&reason.to_string()))?.iter().map(SensitivityReport::from).collect())
@@ -280,18 +284,12 @@ impl Pose {
     /// One slice of the search, of the curve or of what follows.
     fn slice(&mut self) -> Slice {
         let begun = Instant::now();
-        let outcome = loop {
-            match self.step() {
-                Ok(replies) if replies.is_empty() && begun.elapsed() < SLICE && !matches!(self.stage, Stage::Done) => {}
-                outcome => break outcome,
+        let mut replies = loop {
+            let replies = self.step();
+            if !replies.is_empty() || begun.elapsed() >= SLICE || matches!(self.stage, Stage::Done) {
+                break replies;
             }
         };
-        let mut replies = outcome.unwrap_or_else(|error| {
-            self.stage = Stage::Done;
-            let reason = sentence(&error.to_string());
-            let report = Report { searched_up_to: self.limit, ..Report::failed(&reason, self.motion.speed()) };
-            vec![self.reply(Update::Failed(Failed { report, cable: None, shapes: Vec::new() }))]
-        });
         if let (Stage::Searching { search, .. }, true) = (&self.stage, replies.is_empty()) {
             replies.push(self.reply(Update::Searching(search.searched_up_to())));
         }
@@ -299,25 +297,28 @@ impl Pose {
     }
 
     /// One eigenvalue problem of the search or of the curve, or all that follows.
-    fn step(&mut self) -> Result<Slice, NotConverged> {
+    fn step(&mut self) -> Slice {
         match &mut self.stage {
-            Stage::Done => Ok(Vec::new()),
+            Stage::Done => Vec::new(),
             Stage::Searching { search, .. } => {
-                let Some(outcome) = search.advance(&self.local.vibration)? else {
-                    return Ok(Vec::new());
+                // Where only the search fails, the pose with its eigenvalues stands, and so do curve and modes.
+                let outcome = match search.advance(&self.local.vibration) {
+                    Ok(None) => return Vec::new(),
+                    Ok(Some(outcome)) => Ok(outcome),
+                    Err(error) => Err(sentence(&error.to_string())),
                 };
                 let scan: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
                 let scanned = search.searched_up_to();
-                let mut report = self.report.clone();
-                report.set_critical(&outcome, self.limit);
                 let mut replies = vec![self.reply(Update::Critical(CriticalAnswer {
-                    critical: report.critical,
-                    searched_up_to: self.limit,
+                    critical: outcome.as_ref().ok().and_then(CriticalReport::of),
+                    failure: outcome.as_ref().err().cloned(),
+                    searched_up_to: if outcome.is_ok() { self.limit } else { scanned },
                     elapsed_ms: 1e3 * self.submitted.elapsed().as_secs_f64(),
                 }))];
                 let end = match &outcome {
-                    Outcome::Found(critical) => CURVE_MARGIN * critical.speed.max(self.motion.speed()).max(scanned),
-                    Outcome::NoneUpTo(limit) => scanned.max(*limit),
+                    Ok(Outcome::Found(critical)) => CURVE_MARGIN * critical.speed.max(self.motion.speed()).max(scanned),
+                    Ok(Outcome::NoneUpTo(limit)) => scanned.max(*limit),
+                    Err(_) => CURVE_MARGIN * self.motion.speed().max(scanned),
                 };
                 self.outcome = Some(outcome);
                 if self.choice.which == Which::Critical {
@@ -330,7 +331,7 @@ impl Pose {
                     replies.push(self.reply(Update::Curve(Vec::new())));
                     Stage::Sensitivities
                 };
-                Ok(replies)
+                replies
             }
             Stage::Curve { from, next, to, last, points, .. } => {
                 if *next <= *last && *to > *from {
@@ -340,15 +341,15 @@ impl Pose {
                         points.push([speed, spectrum.growth_rate()]);
                     }
                     *next += 1;
-                    return Ok(Vec::new());
+                    return Vec::new();
                 }
                 let points = std::mem::take(points);
                 self.stage = Stage::Sensitivities;
-                Ok(vec![self.reply(Update::Curve(points))])
+                vec![self.reply(Update::Curve(points))]
             }
             Stage::Sensitivities => {
                 self.stage = Stage::Done;
-                Ok(vec![self.reply(Update::Sensitivities(self.sensitivities()))])
+                vec![self.reply(Update::Sensitivities(self.sensitivities()))]
             }
         }
     }
@@ -376,4 +377,53 @@ fn axial_forces(shape: &CableShape) -> Vec<f64> {
 fn drawn(shape: &CableShape) -> DrawnShape {
     let nodes = shape.nodes.iter().map(|node| [node.x, node.y]).collect();
     DrawnShape { nodes, axial_forces: axial_forces(shape) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::presets;
+
+    /// The engine at a pose whose search is about to fail, and all that it says from then on.
+    fn replies_of_a_search_that_fails() -> (Report, Vec<Reply>) {
+        let scenario = presets::PRESETS[0].scenario();
+        let mode = ModeChoice { which: Which::Critical, along_x: false };
+        let job = Job { revision: 3, scenario: scenario.to_json(), max_speed: 40.0, mode };
+        let mut engine = Engine::default();
+        engine.submit(Request::Analyze(job));
+        let replies = engine.work().expect("work");
+        let Some(Update::Pose(pose)) = replies.into_iter().map(|reply| reply.update).next() else { panic!("no pose") };
+        // The search's own matrices; the pose has been computed from the others.
+        let waiting = engine.waiting.as_mut().expect("a pose");
+        waiting.local.vibration.chains[1].elements[2].elastic *= f64::NAN;
+        (pose.report, std::iter::from_fn(|| engine.work()).flatten().collect())
+    }
+
+    /// Cables, eigenvalues and modes stay; the curve and what follows from the pose alone comes, too.
+    #[test]
+    fn where_only_the_search_fails_the_pose_stays_and_the_reason_is_told() {
+        let (pose, replies) = replies_of_a_search_that_fails();
+        let answer = replies.iter().find_map(|reply| match &reply.update {
+            Update::Critical(answer) => Some(answer),
+            Update::Failed(failed) => panic!("{failed:?}"),
+            _ => None,
+        });
+        let answer = answer.expect("the end of the search");
+        let report = answer.completed(pose.clone());
+        assert_eq!((answer.critical.as_ref(), report.status), (None, Some(StatusReport::Failed)));
+        assert_eq!(report.reason.as_deref(), Some("The eigenvalues could not be computed."));
+        assert!(report.searched_up_to < 40.0, "as far as it has come");
+        let kept =
+            |report: &Report| (report.cables.clone(), report.eigenvalues.clone(), report.stable, report.feasible);
+        assert!(!report.eigenvalues.is_empty() && kept(&report) == kept(&pose));
+        let curve = replies.iter().find_map(|reply| match &reply.update {
+            Update::Curve(points) => Some(points),
+            _ => None,
+        });
+        assert!(curve.is_some_and(|points| points.len() >= LEAST_CURVE_POINTS as usize), "{curve:?}");
+        let last = replies.last().map(|reply| &reply.update);
+        assert!(
+            matches!(last, Some(Update::Sensitivities(Err(reason))) if reason == "The critical speed is not known.")
+        );
+    }
 }

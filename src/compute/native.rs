@@ -25,6 +25,12 @@ impl Compute {
         Ok(Self { requests, replies })
     }
 
+    /// One that has said `replies` and hears nothing.
+    #[cfg(test)]
+    pub fn of_replies(replies: Receiver<Reply>) -> Self {
+        Self { requests: channel().0, replies }
+    }
+
     /// Sends a request; a newer one takes the place of an older one that has not begun.
     ///
     /// # Errors

@@ -5,8 +5,9 @@ use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 use crate::scenario::Report;
-use crate::scenario::report::{CriticalReport, SensitivityReport};
+use crate::scenario::report::{CriticalReport, SensitivityReport, StatusReport};
 use crate::stability::Mode;
+use crate::study::NoAnswer;
 
 /// Names a state of the document; later states have larger numbers.
 pub type Revision = u64;
@@ -68,7 +69,7 @@ pub enum Update {
     /// The pose and its spectrum at the scenario's speed; the critical speed is still to come.
     Pose(Box<PoseAnswer>),
     /// The pose has no answer. The analysis is complete.
-    Failed(Failed),
+    Failed(Box<Failed>),
     /// The search for the critical speed goes on; it has come to this speed, in m/s.
     Searching(f64),
     /// The search has ended: the analysis is complete.
@@ -121,10 +122,23 @@ pub struct DrawnShape {
 pub struct CriticalAnswer {
     /// The first crossing, if there is one.
     pub critical: Option<CriticalReport>,
-    /// The limit of the search in m/s.
+    /// Where the search has failed, so that the critical speed is not known: why, as a sentence.
+    pub failure: Option<String>,
+    /// The limit of the search in m/s; where it has failed, the speed that it had come to.
     pub searched_up_to: f64,
     /// From the request to this reply, in ms.
     pub elapsed_ms: f64,
+}
+
+impl CriticalAnswer {
+    /// The analysis of which `report` is all but this answer.
+    pub fn completed(&self, mut report: Report) -> Report {
+        match &self.failure {
+            Some(reason) => report.set_failed(reason.clone(), self.searched_up_to),
+            None => report.set_critical(self.critical.clone(), self.searched_up_to),
+        }
+        report
+    }
 }
 
 /// A [check](crate::study::validation::Check) and what it has come to.
@@ -203,6 +217,8 @@ pub enum Topic {
     Campbell,
     /// Critical speeds on several meshes.
     Convergence,
+    /// Eigenvalues joined to modes.
+    Modes,
 }
 
 /// A study that is wanted of a scenario.
@@ -259,6 +275,11 @@ pub enum StudyChoice {
         /// See [`StudyChoice`].
         max_speed: f64,
     },
+    /// Eigenvalues of successive speeds joined to modes, [`campbell::track`](crate::study::campbell::track): one place.
+    Modes {
+        /// Speeds in rising order, and [Re λ, Im λ] in 1/s.
+        spectra: Vec<(f64, Vec<[f64; 2]>)>,
+    },
 }
 
 impl StudyChoice {
@@ -270,6 +291,7 @@ impl StudyChoice {
             Self::Polar { .. } => Topic::Polar,
             Self::Campbell { .. } => Topic::Campbell,
             Self::Convergence { .. } => Topic::Convergence,
+            Self::Modes { .. } => Topic::Modes,
         }
     }
 }
@@ -304,24 +326,82 @@ pub enum PlaceAnswer {
         direction: [f64; 2],
         /// What is known.
         verdict: VerdictAnswer,
+        /// The wave limit in m/s, of several directions the lowest; `None` where there is none.
+        wave_limit: Option<f64>,
     },
-    /// max Re λ in 1/s; `None` where it is not known.
-    Growth(Option<f64>),
-    /// [Re λ, Im λ] in 1/s, Im λ ≥ 0, in rising order of frequency; `None` where they are not known.
-    Spectrum(Option<Vec<[f64; 2]>>),
+    /// max Re λ in 1/s, or why it is not known.
+    Growth(Result<f64, Missing>),
+    /// [Re λ, Im λ] in 1/s, Im λ ≥ 0, in rising order of frequency; or why they are not known.
+    Spectrum(Result<Vec<[f64; 2]>, Missing>),
+    /// Modes, or why they are not known.
+    Modes(Result<Vec<ModePoints>, Missing>),
+}
+
+/// One mode: the speeds in m/s at which it exists, and [Re λ, Im λ] in 1/s.
+pub type ModePoints = Vec<(f64, [f64; 2])>;
+
+/// Why a pose has no eigenvalues.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Missing {
+    /// It has no taut equilibrium.
+    Infeasible,
+    /// Its statics or its eigenvalues could not be computed.
+    Failed,
+}
+
+impl Missing {
+    /// As tables tell it.
+    pub fn status(self) -> StatusReport {
+        match self {
+            Self::Infeasible => StatusReport::Infeasible,
+            Self::Failed => StatusReport::Failed,
+        }
+    }
+}
+
+impl From<NoAnswer> for Missing {
+    fn from(reason: NoAnswer) -> Self {
+        match reason {
+            NoAnswer::Infeasible => Self::Infeasible,
+            NoAnswer::Failed => Self::Failed,
+        }
+    }
 }
 
 /// The critical speed, or why there is none.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum VerdictAnswer {
-    /// The pose has no taut equilibrium that could be computed.
+    /// The pose has no taut equilibrium.
     Infeasible,
-    /// The eigenvalues could not be computed: not known.
+    /// The statics could not be computed, or the attempt was lost: nothing is known.
+    Unknown,
+    /// The pose has a taut equilibrium, but the search for its critical speed has failed: not known.
     NotConverged,
     /// Every speed up to this one (m/s) is stable.
     NoneUpTo(f64),
     /// The first crossing.
     Critical(CriticalReport),
+}
+
+impl VerdictAnswer {
+    /// Whether the pose has a taut equilibrium; `None` where that is not known.
+    pub fn feasible(&self) -> Option<bool> {
+        match self {
+            Self::Infeasible => Some(false),
+            Self::Unknown => None,
+            Self::NotConverged | Self::NoneUpTo(_) | Self::Critical(_) => Some(true),
+        }
+    }
+
+    /// How the search ended, as tables tell it.
+    pub fn status(&self) -> StatusReport {
+        match self {
+            Self::Infeasible => StatusReport::Infeasible,
+            Self::Unknown | Self::NotConverged => StatusReport::Failed,
+            Self::NoneUpTo(_) => StatusReport::None,
+            Self::Critical(_) => StatusReport::Found,
+        }
+    }
 }
 
 /// News of a study.

@@ -136,6 +136,23 @@ impl Vibration {
         }
     }
 
+    /// Whether K is positive definite, so that the robot is stable at v = 0: by elimination along the cables, whose pivots
+    /// are then all positive definite.
+    pub fn is_stable_at_rest(&self) -> bool {
+        let positive = |block: &Matrix2<f64>| block.trace() > 0.0 && block.determinant() > 0.0;
+        let mut hub = Matrix2::zeros();
+        for Chain { elements } in &self.chains {
+            let mut outer = Matrix2::zeros();
+            for pair in elements.windows(2).rev() {
+                let pivot = pair[0].elastic + pair[1].elastic - outer;
+                let Some(inverse) = pivot.try_inverse().filter(|_| positive(&pivot)) else { return false };
+                outer = pair[0].elastic * inverse * pair[0].elastic;
+            }
+            hub += elements[0].elastic - outer;
+        }
+        matches!(self.hub, Hub::Fixed) || positive(&hub)
+    }
+
     /// Number of nodes that move.
     pub fn nodes(&self) -> usize {
         let hub = usize::from(matches!(self.hub, Hub::Platform(_)));

@@ -126,6 +126,16 @@ pub enum StaticsError {
 }
 
 impl StaticsError {
+    /// What the statics say: `false` where there is no taut equilibrium, `true` where there is one but the rest could not
+    /// be computed, `None` where that is not known.
+    pub fn feasible(&self) -> Option<bool> {
+        match self {
+            Self::Infeasible(_) => Some(false),
+            Self::NotConverged { .. } => None,
+            Self::OutOfRange => Some(true),
+        }
+    }
+
     /// The cable to blame, 0-based, where it is one.
     pub fn cable(&self) -> Option<usize> {
         Some(match *self {

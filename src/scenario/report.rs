@@ -3,12 +3,12 @@
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
-use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError};
+use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError, WaveLimit};
 use crate::robot::{Motion, Robot};
 use crate::stability::{
     Critical, CriticalSearch, Eigenproblem, Kind, Method, NotConverged, Outcome, Spectrum, unstable_eigenvalues,
 };
-use crate::study::{Knob, Local, Sensitivity};
+use crate::study::{Knob, Local, Sensitivity, Status};
 
 /// The name and version of the format.
 pub const SCHEMA: &str = "tautline/analysis/1";
@@ -20,9 +20,9 @@ pub const DEFAULT_MAX_SPEED: f64 = 40.0;
 pub struct Report {
     /// [`SCHEMA`].
     pub schema: String,
-    /// Whether the pose has a taut equilibrium that could be computed; eigenvalues may still be missing.
-    pub feasible: bool,
-    /// Why not, or why a feasible pose has no complete answer, as a sentence.
+    /// Whether the pose has a taut equilibrium, which is the statics' answer; `None` where they could not be computed.
+    pub feasible: Option<bool>,
+    /// Why not, or why the answer is not complete, as a sentence.
     pub reason: Option<String>,
     /// One entry per cable.
     pub cables: Vec<CableReport>,
@@ -34,10 +34,69 @@ pub struct Report {
     pub max_growth_rate: Option<f64>,
     /// Whether every Re λ < 0.
     pub stable: Option<bool>,
+    /// Whether the robot is stable at v = 0.
+    pub stable_at_rest: Option<bool>,
+    /// How the search for the critical speed ended; `None` while it goes on.
+    pub status: Option<StatusReport>,
     /// The first crossing, where one was found.
     pub critical: Option<CriticalReport>,
     /// The speed in m/s up to which it was searched.
     pub searched_up_to: f64,
+    /// The speed at which a winch reels as fast as waves run along its cable, where a cable moves.
+    pub wave_limit: Option<WaveLimitReport>,
+}
+
+/// How the search for a critical speed ended, as tables and analyses tell it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum StatusReport {
+    /// There is one.
+    Found,
+    /// There is none up to the limit of the search.
+    None,
+    /// There is no taut equilibrium to begin with.
+    Infeasible,
+    /// It could not be computed.
+    Failed,
+}
+
+impl From<Status> for StatusReport {
+    fn from(status: Status) -> Self {
+        match status {
+            Status::Found => Self::Found,
+            Status::None => Self::None,
+            Status::Infeasible => Self::Infeasible,
+            Status::Failed => Self::Failed,
+        }
+    }
+}
+
+impl std::fmt::Display for StatusReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Found => "found",
+            Self::None => "none",
+            Self::Infeasible => "infeasible",
+            Self::Failed => "failed",
+        })
+    }
+}
+
+/// The speed at which a winch reels as fast as waves run along its cable.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct WaveLimitReport {
+    /// Of the platform, in m/s.
+    pub speed: f64,
+    /// The cable that reaches it first, 1-based.
+    pub cable: usize,
+    /// Whether that cable is reeled in.
+    pub reeled_in: bool,
+}
+
+impl From<WaveLimit> for WaveLimitReport {
+    fn from(WaveLimit { speed, cable, reeled_in }: WaveLimit) -> Self {
+        Self { speed, cable: cable + 1, reeled_in }
+    }
 }
 
 /// One cable at rest.
@@ -78,6 +137,15 @@ pub enum KindReport {
     Flutter,
     /// A displacement grows without oscillating.
     Divergence,
+}
+
+impl std::fmt::Display for KindReport {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Flutter => "flutter",
+            Self::Divergence => "divergence",
+        })
+    }
 }
 
 /// What one parameter does to the critical speed.
@@ -157,6 +225,16 @@ impl CableReport {
     }
 }
 
+impl CriticalReport {
+    /// What a search has found, if anything.
+    pub fn of(outcome: &Outcome) -> Option<Self> {
+        match outcome {
+            Outcome::Found(critical) => Some(critical.into()),
+            Outcome::NoneUpTo(_) => None,
+        }
+    }
+}
+
 impl From<&Critical> for CriticalReport {
     fn from(critical: &Critical) -> Self {
         let kind = match critical.kind {
@@ -190,36 +268,59 @@ impl Report {
     fn at_rest(local: &Local, speed: f64) -> Self {
         let cables = local.statics.cables.iter().zip(&local.rates);
         Self {
-            feasible: true,
+            feasible: Some(true),
             reason: None,
             cables: cables.map(|(shape, &rates)| CableReport::new(shape, rates)).collect(),
-            ..Self::failed("", speed)
+            stable_at_rest: Some(local.vibration.is_stable_at_rest()),
+            wave_limit: local.wave_limit.map(WaveLimitReport::from),
+            ..Self::unknown("", speed)
         }
     }
 
-    /// The report of a pose without an answer.
-    pub fn failed(reason: &str, speed: f64) -> Self {
+    /// The report of a pose of which nothing is known, not even whether it is feasible.
+    pub fn unknown(reason: &str, speed: f64) -> Self {
         Self {
             schema: SCHEMA.into(),
-            feasible: false,
+            feasible: None,
             reason: Some(reason.into()),
             cables: Vec::new(),
             speed,
             eigenvalues: Vec::new(),
             max_growth_rate: None,
             stable: None,
+            stable_at_rest: None,
+            status: None,
             critical: None,
             searched_up_to: 0.0,
+            wave_limit: None,
         }
     }
 
-    /// Enters the end of the search for the critical speed up to `limit`.
-    pub fn set_critical(&mut self, outcome: &Outcome, limit: f64) {
+    /// The report of a pose without statics, or without vibrations that can be computed, and a search that was to go up to
+    /// `limit` (m/s).
+    pub fn without_pose(failure: &Failure, speed: f64, limit: f64) -> Self {
+        let feasible = failure.reason.feasible();
+        Self {
+            feasible,
+            status: Some(if feasible == Some(false) { StatusReport::Infeasible } else { StatusReport::Failed }),
+            searched_up_to: limit,
+            ..Self::unknown(&failure_sentence(failure), speed)
+        }
+    }
+
+    /// Enters the end of the search for the critical speed up to `limit`: what was found, if anything was.
+    pub fn set_critical(&mut self, critical: Option<CriticalReport>, limit: f64) {
         self.searched_up_to = limit;
-        self.critical = match outcome {
-            Outcome::Found(critical) => Some(critical.into()),
-            Outcome::NoneUpTo(_) => None,
-        };
+        self.status = Some(if critical.is_some() { StatusReport::Found } else { StatusReport::None });
+        self.critical = critical;
+    }
+
+    /// Enters that the search has failed for a `reason`, a sentence, after it had come to a speed (m/s): the critical speed
+    /// is not known, all else stays.
+    pub fn set_failed(&mut self, reason: String, searched_up_to: f64) {
+        self.searched_up_to = searched_up_to;
+        (self.status, self.critical) = (Some(StatusReport::Failed), None);
+        self.reason = Some(reason);
     }
 
     /// The whole analysis in one go, the critical speed searched up to `limit` (m/s).
@@ -232,7 +333,7 @@ impl Report {
         let speed = motion.speed();
         let local = match Local::new(robot, motion) {
             Ok(local) => local,
-            Err(failure) => return Self::infeasible(&failure, speed, limit),
+            Err(failure) => return Self::without_pose(&failure, speed, limit),
         };
         let spectrum = match method {
             Method::Structured => local.spectrum(speed),
@@ -248,15 +349,11 @@ impl Report {
     pub fn critical_speed(robot: &Robot, motion: &Motion, limit: f64) -> Self {
         let local = match Local::new(robot, motion) {
             Ok(local) => local,
-            Err(failure) => return Self::infeasible(&failure, motion.speed(), limit),
+            Err(failure) => return Self::without_pose(&failure, motion.speed(), limit),
         };
         let mut report = Self::at_rest(&local, motion.speed());
         report.search(&local, limit, Method::default(), |_| {});
         report
-    }
-
-    fn infeasible(failure: &Failure, speed: f64, limit: f64) -> Self {
-        Self { searched_up_to: limit, ..Self::failed(&failure_sentence(failure), speed) }
     }
 
     fn search(&mut self, local: &Local, limit: f64, method: Method, mut watch: impl FnMut(f64)) {
@@ -265,12 +362,8 @@ impl Report {
             watch(search.searched_up_to());
             match search.advance(&local.vibration) {
                 Ok(None) => {}
-                Ok(Some(outcome)) => return self.set_critical(&outcome, limit),
-                Err(error) => {
-                    self.searched_up_to = search.searched_up_to();
-                    self.reason = Some(sentence(&error.to_string()));
-                    return;
-                }
+                Ok(Some(outcome)) => return self.set_critical(CriticalReport::of(&outcome), limit),
+                Err(error) => return self.set_failed(sentence(&error.to_string()), search.searched_up_to()),
             }
         }
     }

@@ -1,7 +1,7 @@
 //! What finer meshes would give: Richardson's extrapolation of the critical speed.
 
 use crate::stability::Critical;
-use crate::study::Verdict;
+use crate::study::{Status, Verdict};
 
 /// The order of linear elements: the error falls as n⁻².
 const ORDER: f64 = 2.0;
@@ -54,10 +54,10 @@ pub enum Doubt {
 /// Of the finest meshes that agree in kind, cable and (to a quarter) frequency: with v at n, 2n and 4n elements the
 /// order is p = log₂ ((v₂ₙ − vₙ)/(v₄ₙ − v₂ₙ)) and the limit v₄ₙ + (v₄ₙ − v₂ₙ)/(2ᵖ − 1). Where there are no three such
 /// meshes, or they show no order from 1 to 3 although the differences shrink, p = 2 and the limit comes from the two
-/// finest meshes. Verdicts that have not converged are passed over.
+/// finest meshes. Meshes of which nothing is known are passed over.
 pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
     let mut meshes: Vec<&(usize, Verdict)> =
-        meshes.iter().filter(|(n, verdict)| *n > 0 && *verdict != Verdict::NotConverged).collect();
+        meshes.iter().filter(|(n, verdict)| *n > 0 && verdict.status() != Status::Failed).collect();
     meshes.sort_by_key(|(n, _)| *n);
     meshes.dedup_by_key(|(n, _)| *n);
     let critical: Vec<(usize, Option<&Critical>)> =

@@ -1,6 +1,6 @@
 //! The robot at one pose, ready to be asked for its spectrum, modes and critical speed.
 
-use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration};
+use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration, WaveLimit};
 use crate::robot::{Motion, Robot, Vec2};
 use crate::stability::{CriticalSearch, NotConverged, Outcome, Spectra, Spectrum};
 
@@ -11,6 +11,8 @@ pub struct Local {
     pub statics: Statics,
     /// L' and L'' of every cable.
     pub rates: Vec<LengthRates>,
+    /// The speed at which a winch reels as fast as waves run, where a cable moves.
+    pub wave_limit: Option<WaveLimit>,
     /// The problem of small vibrations, for every speed.
     pub vibration: Vibration,
     /// The same, prepared for its eigenvalues.
@@ -41,7 +43,10 @@ impl Local {
         };
         let vibration = Vibration::new(robot, &statics, &rates);
         match Spectra::new(&vibration) {
-            Ok(spectra) => Ok(Self { statics, rates, vibration, spectra }),
+            Ok(spectra) => {
+                let wave_limit = mechanics::wave_limit(robot, &statics, &rates);
+                Ok(Self { statics, rates, wave_limit, vibration, spectra })
+            }
             Err(_) => Err(failed(statics)),
         }
     }

@@ -36,4 +36,4 @@ pub use grid::{Grid, Line, evenly, workspace};
 pub use local::Local;
 pub use sensitivity::{Sensitivity, sensitivities};
 pub use studies::{Answer, Asked, Study};
-pub use verdict::{Directions, Verdict, compass, verdict};
+pub use verdict::{Directions, NoAnswer, Status, Verdict, compass, verdict};

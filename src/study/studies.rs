@@ -5,7 +5,7 @@ use nalgebra::Complex;
 
 use crate::robot::{Motion, Robot, RobotSpec, Vec2};
 use crate::study::grid::coarse_first_in_a_row;
-use crate::study::{Directions, Grid, Line, Local, Verdict, compass, evenly, verdict};
+use crate::study::{Directions, Grid, Line, Local, NoAnswer, Verdict, compass, evenly, verdict};
 
 /// What a map shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,12 +85,14 @@ pub enum Answer {
         direction: Vec2,
         /// What is known.
         verdict: Verdict,
+        /// The wave limit in m/s, of several directions the lowest; `None` where there is none.
+        wave_limit: Option<f64>,
     },
-    /// The largest growth rate max Re λ in 1/s; `None` where the pose is infeasible or no eigenvalues were found.
-    Growth(Option<f64>),
+    /// The largest growth rate max Re λ in 1/s, or why it is not known.
+    Growth(Result<f64, NoAnswer>),
     /// The eigenvalues in 1/s in rising order of frequency: of a complex pair the one with Im λ > 0, real ones each, of
-    /// those that are equal by the problem's structure one. `None` as for the growth rate.
-    Spectrum(Option<Vec<Complex<f64>>>),
+    /// those that are equal by the problem's structure one. Or why they are not known.
+    Spectrum(Result<Vec<Complex<f64>>, NoAnswer>),
 }
 
 impl Study {
@@ -126,14 +128,14 @@ impl Study {
     /// The answer at one place, which depends on `robot` and the study alone.
     ///
     /// Nothing here is an error: a place without a pose (an infeasible one, a position or direction that is not
-    /// finite, no direction) is infeasible, and a mesh that is not allowed has not converged.
+    /// finite, no direction) is infeasible, and of a mesh that is not allowed nothing is known.
     pub fn answer(&self, robot: &Robot, index: usize) -> Answer {
         match self {
             Self::Line { line, limit } => critical(robot, line.position(index), line.direction, *limit),
             Self::Map { grid, directions, asked } => match *asked {
                 Asked::Critical { limit } => {
-                    let (direction, verdict) = directions.verdict(robot, grid.position(index), limit);
-                    Answer::Critical { direction, verdict }
+                    let (direction, verdict, wave_limit) = directions.verdict(robot, grid.position(index), limit);
+                    Answer::Critical { direction, verdict, wave_limit }
                 }
                 Asked::Growth { speed } => Answer::Growth(directions.growth(robot, grid.position(index), speed)),
             },
@@ -145,22 +147,31 @@ impl Study {
                 let elements = counts.get(index).copied().unwrap_or_default();
                 match Robot::new(RobotSpec { elements, ..(**robot).clone() }) {
                     Ok(robot) => critical(&robot, *position, *direction, *limit),
-                    Err(_) => Answer::Critical { direction: *direction, verdict: Verdict::NotConverged },
+                    Err(_) => Answer::unknown(*direction),
                 }
             }
         }
     }
 }
 
-fn critical(robot: &Robot, position: Vec2, direction: Vec2, limit: f64) -> Answer {
-    let Ok(motion) = Motion::new(position, direction, 0.0) else {
-        return Answer::Critical { direction, verdict: Verdict::Infeasible };
-    };
-    Answer::Critical { direction: motion.direction(), verdict: verdict(robot, &motion, limit) }
+impl Answer {
+    /// Where a critical speed is asked for and nothing is known.
+    pub fn unknown(direction: Vec2) -> Self {
+        Self::Critical { direction, verdict: Verdict::Unknown, wave_limit: None }
+    }
 }
 
-fn spectrum(robot: &Robot, position: Vec2, direction: Vec2, speed: f64) -> Option<Vec<Complex<f64>>> {
-    let motion = Motion::new(position, direction, speed).ok()?;
-    let spectrum = Local::new(robot, &motion).ok()?.spectrum(speed).ok()?;
-    Some(spectrum.modes().map(|mode| mode.eigenvalue).collect())
+fn critical(robot: &Robot, position: Vec2, direction: Vec2, limit: f64) -> Answer {
+    let Ok(motion) = Motion::new(position, direction, 0.0) else {
+        return Answer::Critical { direction, verdict: Verdict::Infeasible, wave_limit: None };
+    };
+    let (verdict, wave_limit) = verdict(robot, &motion, limit);
+    Answer::Critical { direction: motion.direction(), verdict, wave_limit }
+}
+
+fn spectrum(robot: &Robot, position: Vec2, direction: Vec2, speed: f64) -> Result<Vec<Complex<f64>>, NoAnswer> {
+    let motion = Motion::new(position, direction, speed).map_err(|_| NoAnswer::Infeasible)?;
+    let local = Local::new(robot, &motion).map_err(|failure| NoAnswer::from(&failure))?;
+    let spectrum = local.spectrum(speed).map_err(|_| NoAnswer::Failed)?;
+    Ok(spectrum.modes().map(|mode| mode.eigenvalue).collect())
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::mechanics::{self, Statics};
+use crate::mechanics::{self, Failure, Statics};
 use crate::robot::{Motion, Robot, Vec2};
 use crate::stability::{Critical, Outcome};
 use crate::study::Local;
@@ -10,9 +10,11 @@ use crate::study::Local;
 /// The critical speed of a pose in one direction, or why there is none.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// The pose has no taut equilibrium that could be computed.
+    /// The pose has no taut equilibrium.
     Infeasible,
-    /// The eigenvalues could not be computed: not known.
+    /// The statics could not be computed: nothing is known, not even whether there is an equilibrium.
+    Unknown,
+    /// The pose has a taut equilibrium, but the search for its critical speed has failed: not known.
     NotConverged,
     /// Every speed up to this one (m/s) is stable.
     NoneUpTo(f64),
@@ -25,32 +27,98 @@ impl Verdict {
     pub fn critical(&self) -> Option<&Critical> {
         match self {
             Self::Critical(critical) => Some(critical),
-            Self::Infeasible | Self::NotConverged | Self::NoneUpTo(_) => None,
+            Self::Infeasible | Self::Unknown | Self::NotConverged | Self::NoneUpTo(_) => None,
         }
     }
 
-    /// Whether the pose has a taut equilibrium.
-    pub fn is_feasible(&self) -> bool {
-        *self != Self::Infeasible
+    /// Whether the pose has a taut equilibrium; `None` where that is not known.
+    pub fn feasible(&self) -> Option<bool> {
+        match self {
+            Self::Infeasible => Some(false),
+            Self::Unknown => None,
+            Self::NotConverged | Self::NoneUpTo(_) | Self::Critical(_) => Some(true),
+        }
+    }
+
+    /// How the search ended.
+    pub fn status(&self) -> Status {
+        match self {
+            Self::Infeasible => Status::Infeasible,
+            Self::Unknown | Self::NotConverged => Status::Failed,
+            Self::NoneUpTo(_) => Status::None,
+            Self::Critical(_) => Status::Found,
+        }
     }
 }
 
-/// The critical speed of `robot` on `motion`, searched up to `limit` (m/s, finite and greater than 0). The motion's
-/// speed does not matter.
-pub fn verdict(robot: &Robot, motion: &Motion, limit: f64) -> Verdict {
+impl From<&Failure> for Verdict {
+    fn from(failure: &Failure) -> Self {
+        match failure.reason.feasible() {
+            Some(false) => Self::Infeasible,
+            Some(true) => Self::NotConverged,
+            None => Self::Unknown,
+        }
+    }
+}
+
+/// How a search for a critical speed, or for eigenvalues, ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// There is one.
+    Found,
+    /// There is none up to the limit.
+    None,
+    /// There is no taut equilibrium to begin with.
+    Infeasible,
+    /// It could not be computed.
+    Failed,
+}
+
+/// Why a pose has no eigenvalues.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoAnswer {
+    /// It has no taut equilibrium.
+    Infeasible,
+    /// Its statics or its eigenvalues could not be computed.
+    Failed,
+}
+
+impl From<&Failure> for NoAnswer {
+    fn from(failure: &Failure) -> Self {
+        if failure.reason.feasible() == Some(false) { Self::Infeasible } else { Self::Failed }
+    }
+}
+
+/// The critical speed of `robot` on `motion`, searched up to `limit` (m/s, finite and greater than 0), and its wave limit
+/// in m/s where there is one ([`mechanics::wave_limit`]). The motion's speed does not matter.
+pub fn verdict(robot: &Robot, motion: &Motion, limit: f64) -> (Verdict, Option<f64>) {
     match mechanics::solve(robot, motion.position()) {
         Ok(statics) => along(robot, statics, motion.direction(), limit),
-        Err(_) => Verdict::Infeasible,
+        Err(failure) => (Verdict::from(&failure), None),
     }
 }
 
-fn along(robot: &Robot, statics: Statics, direction: Vec2, limit: f64) -> Verdict {
-    let Ok(local) = Local::along(robot, statics, direction) else { return Verdict::Infeasible };
-    match local.critical_speed(limit) {
+fn wave_limit(robot: &Robot, statics: &Statics, direction: Vec2) -> Option<f64> {
+    let rates = mechanics::length_rates(robot, statics, direction)?;
+    Some(mechanics::wave_limit(robot, statics, &rates)?.speed)
+}
+
+/// The lower one, where there is any.
+fn lower(a: Option<f64>, b: Option<f64>) -> Option<f64> {
+    a.into_iter().chain(b).min_by(f64::total_cmp)
+}
+
+fn along(robot: &Robot, statics: Statics, direction: Vec2, limit: f64) -> (Verdict, Option<f64>) {
+    let local = match Local::along(robot, statics, direction) {
+        Ok(local) => local,
+        Err(failure) => return (Verdict::from(&failure), None),
+    };
+    let verdict = match local.critical_speed(limit) {
         Ok(Outcome::Found(critical)) => Verdict::Critical(critical),
         Ok(Outcome::NoneUpTo(limit)) => Verdict::NoneUpTo(limit),
         Err(_) => Verdict::NotConverged,
-    }
+    };
+    (verdict, local.wave_limit.map(|limit| limit.speed))
 }
 
 /// In which directions the platform moves through a pose.
@@ -82,16 +150,28 @@ impl Directions {
         }
     }
 
-    /// The lowest critical speed at `position` up to `limit` (m/s) and its direction; the first direction where no
-    /// speed is critical. Where one direction is without an answer, so is the worst.
-    pub(super) fn verdict(self, robot: &Robot, position: Vec2, limit: f64) -> (Vec2, Verdict) {
+    /// The lowest critical speed at `position` up to `limit` (m/s) with its direction, and the lowest wave limit of all
+    /// directions; the first direction where no speed is critical. Where one direction is without an answer, so is the
+    /// worst.
+    pub(super) fn verdict(self, robot: &Robot, position: Vec2, limit: f64) -> (Vec2, Verdict, Option<f64>) {
         let directions = self.each();
         let mut worst = (directions.first().copied().unwrap_or(Vec2::x()), Verdict::Infeasible);
-        let Some(statics) = statics(robot, position) else { return worst };
+        let statics = match statics(robot, position) {
+            Ok(statics) => statics,
+            Err(verdict) => return (worst.0, verdict, None),
+        };
+        let mut waves: Option<f64> = None;
+        // Those of directions that are not searched.
+        let not_searched = |from: usize| {
+            let rest = directions.iter().skip(from);
+            rest.filter_map(|direction| wave_limit(robot, &statics, *direction)).min_by(f64::total_cmp)
+        };
         // A direction matters only where it is critical below the lowest speed so far.
         let mut searched = limit;
-        for (k, direction) in directions.into_iter().enumerate() {
-            match along(robot, statics.clone(), direction, searched) {
+        for (k, &direction) in directions.iter().enumerate() {
+            let (verdict, wave_limit) = along(robot, statics.clone(), direction, searched);
+            waves = lower(waves, wave_limit);
+            match verdict {
                 Verdict::Critical(critical) => {
                     if worst.1.critical().is_none_or(|lowest| critical.speed < lowest.speed) {
                         searched = critical.speed;
@@ -100,31 +180,39 @@ impl Directions {
                 }
                 Verdict::NoneUpTo(_) if k == 0 => worst = (direction, Verdict::NoneUpTo(limit)),
                 Verdict::NoneUpTo(_) => {}
-                unknown => return (direction, unknown),
+                unknown => return (direction, unknown, lower(waves, not_searched(k + 1))),
             }
             // Nothing is lower than a speed at which everything grows.
             if searched <= 0.0 {
+                waves = lower(waves, not_searched(k + 1));
                 break;
             }
         }
-        worst
+        (worst.0, worst.1, waves)
     }
 
-    /// The largest growth rate max Re λ (1/s) at `position` and `speed` (m/s) over the directions; `None` where it is
-    /// not known.
-    pub(super) fn growth(self, robot: &Robot, position: Vec2, speed: f64) -> Option<f64> {
-        let statics = statics(robot, position)?;
+    /// The largest growth rate max Re λ (1/s) at `position` and `speed` (m/s) over the directions.
+    ///
+    /// # Errors
+    /// Why it is not known.
+    pub(super) fn growth(self, robot: &Robot, position: Vec2, speed: f64) -> Result<f64, NoAnswer> {
+        let no_answer = |verdict| if verdict == Verdict::Infeasible { NoAnswer::Infeasible } else { NoAnswer::Failed };
+        let statics = statics(robot, position).map_err(no_answer)?;
         let growth = |direction| {
-            let local = Local::along(robot, statics.clone(), direction).ok()?;
-            Some(local.spectrum(speed).ok()?.growth_rate())
+            let local = Local::along(robot, statics.clone(), direction).map_err(|failure| NoAnswer::from(&failure))?;
+            Ok(local.spectrum(speed).map_err(|_| NoAnswer::Failed)?.growth_rate())
         };
-        let rates: Option<Vec<f64>> = self.each().into_iter().map(growth).collect();
-        rates?.into_iter().max_by(f64::total_cmp)
+        let rates = self.each().into_iter().map(growth).collect::<Result<Vec<f64>, NoAnswer>>()?;
+        rates.into_iter().max_by(f64::total_cmp).ok_or(NoAnswer::Infeasible)
     }
 }
 
-fn statics(robot: &Robot, position: Vec2) -> Option<Statics> {
-    position.iter().all(|coordinate| coordinate.is_finite()).then(|| mechanics::solve(robot, position).ok())?
+/// The statics at `position`, or the verdict where there are none.
+fn statics(robot: &Robot, position: Vec2) -> Result<Statics, Verdict> {
+    if !position.iter().all(|coordinate| coordinate.is_finite()) {
+        return Err(Verdict::Infeasible);
+    }
+    mechanics::solve(robot, position).map_err(|failure| Verdict::from(&failure))
 }
 
 fn unit(direction: Vec2) -> Option<Vec2> {

@@ -82,10 +82,12 @@ for (const [name, scenario] of Object.entries(SCENARIOS)) {
         const analysis = tautline.analyze(scenario);
         assertSame(analysis, commandLine(scenario));
         assert.deepEqual(tautline.analyze(JSON.stringify(scenario)), analysis, "an object is as good as its text");
-        const { speed, frequency_hz, kind, cable, feasible, reason, searched_up_to } = tautline.criticalSpeed(scenario);
+        const found = tautline.criticalSpeed(scenario);
+        const { speed, frequency_hz, kind, cable, feasible, reason, searched_up_to, status, wave_limit } = found;
         const none = { speed: null, frequency_hz: null, kind: null, cable: null };
         assert.deepEqual({ speed, frequency_hz, kind, cable }, analysis.critical ?? none);
         assert.deepEqual([feasible, reason, searched_up_to], [analysis.feasible, analysis.reason, analysis.searched_up_to]);
+        assert.deepEqual([status, wave_limit], [analysis.status, analysis.wave_limit]);
     });
 }
 
@@ -94,9 +96,12 @@ test("the critical speed of the paper's robot is that of docs/theory.md", async 
     const { speed, frequency_hz, kind, cable, searched_up_to } = tautline.criticalSpeed(paper);
     assert.ok(Math.abs(speed - 11.299) < 1e-3 && Math.abs(frequency_hz - 0.27155) < 1e-5, `${speed} ${frequency_hz}`);
     assert.deepEqual([kind, cable, searched_up_to], ["flutter", 4, 40]);
-    assert.deepEqual(tautline.criticalSpeed(paper, { maxSpeed: 3 }), {
+    const { wave_limit, ...none } = tautline.criticalSpeed(paper, { maxSpeed: 3 });
+    assert.deepEqual(none, {
         feasible: true, reason: null, speed: null, frequency_hz: null, kind: null, cable: null, searched_up_to: 3,
+        status: "none",
     });
+    assert.ok(Math.abs(wave_limit.speed - 11.874) < 5e-4 && wave_limit.reeled_in, JSON.stringify(wave_limit));
     assert.equal(tautline.analyze(paper, { maxSpeed: 3 }).searched_up_to, 3);
 });
 
@@ -105,10 +110,10 @@ for (const [direction, words] of [["motion", []], ["worst", ["--direction", "wor
         await tautline.init();
         const args = ["map", "-", "--nx", "5", "--ny", "3", "--csv", "--max-speed", "10", ...words];
         const [header, ...lines] = runCommandLine(args, JSON.stringify(paper)).stdout.trim().split("\n");
-        const value = (text) => (text === "" ? null : /^(true|false|flutter|divergence)$/.test(text) ? text : Number(text));
+        const value = (text) => (text === "" ? null : /^(true|false|flutter|divergence|found|none|infeasible|failed)$/.test(text) ? text : Number(text));
         const table = lines.map((line) => {
             const row = Object.fromEntries(line.split(",").map((text, i) => [header.split(",")[i], value(text)]));
-            return { ...row, feasible: row.feasible === "true" };
+            return { ...row, feasible: row.feasible === null ? null : row.feasible === "true" };
         });
         const progress = [];
         const onProgress = (done, total) => progress.push([done, total]);

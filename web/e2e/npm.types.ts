@@ -25,7 +25,8 @@ const analysis: Analysis = analyze(scenario, { maxSpeed: 60 });
 if (analysis.feasible) {
     const growth: number | null = analysis.max_growth_rate;
     const [re, im]: [number, number] = analysis.eigenvalues[0] ?? [0, 0];
-    console.log(growth, re, im, analysis.critical?.frequency_hz, analysis.cables[0]?.nodes);
+    const limit: number | undefined = analysis.wave_limit?.speed;
+    console.log(limit, growth, re, im, analysis.critical?.frequency_hz, analysis.cables[0]?.nodes);
 } else {
     const reason: string = analysis.reason;
     const none: null = analysis.critical;
@@ -44,7 +45,8 @@ const directions: Direction[] = ["motion", "worst", "+x", "-x", "+y", "-y", [1, 
 const { signal } = new AbortController();
 const rows: MapRow[] = await map(scenario, { nx: 5, ny: 3, direction: "worst", onProgress: (done, total) => done / total, signal });
 const speeds: number[] = rows.flatMap((row) => (row.critical_speed === null ? [] : [row.critical_speed]));
-console.log(directions, speeds);
+const failed: MapRow[] = rows.filter((row) => row.status === "failed");
+console.log(directions, speeds, failed.length);
 
 // @ts-expect-error: an unknown field
 analyze({ ...scenario, colour: "red" } satisfies Scenario);

@@ -57,11 +57,14 @@ function watchMap() {
 function compare(rows, scenario) {
     const some = rows.filter((row, i) => i % 97 === 0 || (row[0] === 6 && row[1] === 0));
     assert.ok(some.length > 8, `${some.length} rows`);
-    for (const [x, y, feasible, speed, frequency, kind, cable] of some) {
+    for (const [x, y, feasible, speed, frequency, kind, cable, waveLimit, status] of some) {
         const expected = commandLine({ ...scenario, motion: { ...scenario.motion, position: [x, y] } });
         const where = `at (${x}, ${y})`;
         assert.equal(feasible, expected.feasible, where);
         assert.equal(speed === null, expected.critical === null, where);
+        assert.equal(status, expected.status, where);
+        const wave = expected.wave_limit?.speed ?? null;
+        assert.ok(wave === waveLimit || Math.abs(waveLimit - wave) <= 1e-6 * wave, `${where}: ${waveLimit}`);
         if (speed === null) continue;
         assert.ok(Math.abs(speed - expected.critical.speed) <= 1e-6 * expected.critical.speed, `${where}: ${speed}`);
         assert.ok(Math.abs(frequency - expected.critical.frequency_hz) <= 1e-6 * (1 + frequency), `${where}: ${frequency}`);

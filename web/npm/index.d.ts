@@ -76,6 +76,20 @@ export interface TensionLaw {
 
 // ---- Results -----------------------------------------------------------------------------------------------------
 
+/** How the search for a critical speed ended: there is one, there is none up to its limit, there is no equilibrium to begin
+ *  with, or it could not be computed. */
+export type Status = "found" | "none" | "infeasible" | "failed";
+
+/** The speed at which a winch reels as fast as waves run along its cable. */
+export interface WaveLimit {
+    /** Of the platform, in m/s. */
+    speed: number;
+    /** The cable that reaches it first, from 1. */
+    cable: number;
+    /** Whether that cable is reeled in. */
+    reeled_in: boolean;
+}
+
 /** How stability is lost: an oscillation grows, or a displacement without oscillating. */
 export type Kind = "flutter" | "divergence";
 
@@ -93,9 +107,9 @@ interface AnalysisFields {
 /** The pose has a taut equilibrium. */
 export interface FeasibleAnalysis extends AnalysisFields {
     feasible: true;
-    /** A sentence where the answer is not complete, because eigenvalues could not be computed. */
+    /** A sentence where the answer is not complete, because something could not be computed. */
     reason: string | null;
-    /** One entry per cable. */
+    /** One entry per cable; empty where the motion or the vibration leaves the range of floating point. */
     cables: CableAtRest[];
     /** All eigenvalues at the scenario's speed in 1/s, multiplicity included; empty where they could not be computed. */
     eigenvalues: [re: number, im: number][];
@@ -103,20 +117,29 @@ export interface FeasibleAnalysis extends AnalysisFields {
     max_growth_rate: number | null;
     /** Whether every real part is negative. */
     stable: boolean | null;
+    /** Whether the robot is stable at rest. */
+    stable_at_rest: boolean | null;
+    /** How the search ended. */
+    status: "found" | "none" | "failed";
     /** The smallest speed at which a vibration begins to grow; null where none was found up to `searched_up_to`. */
     critical: Critical | null;
+    /** Null where no cable moves. */
+    wave_limit: WaveLimit | null;
 }
 
-/** The pose has none that could be computed. */
+/** The pose has none, or (null) the equilibrium could not be computed. */
 export interface InfeasibleAnalysis extends AnalysisFields {
-    feasible: false;
+    feasible: false | null;
     /** Why, as a sentence. */
     reason: string;
     cables: [];
     eigenvalues: [];
     max_growth_rate: null;
     stable: null;
+    stable_at_rest: null;
+    status: "infeasible" | "failed";
     critical: null;
+    wave_limit: null;
 }
 
 /** One cable at rest. */
@@ -152,22 +175,28 @@ export type CriticalSpeed = FoundCriticalSpeed | NoCriticalSpeed;
 export interface FoundCriticalSpeed extends Critical {
     feasible: true;
     reason: null;
+    status: "found";
     /** In m/s: the limit of the search. */
     searched_up_to: number;
+    /** Null where no cable moves. */
+    wave_limit: WaveLimit | null;
 }
 
 /** There is none up to `searched_up_to`, or it is not known. */
 export interface NoCriticalSpeed {
-    /** Whether the pose has a taut equilibrium. */
-    feasible: boolean;
+    /** Whether the pose has a taut equilibrium; null where that could not be computed. */
+    feasible: boolean | null;
     /** Why it is not known, as a sentence; null where all speeds up to `searched_up_to` are stable. */
     reason: string | null;
     speed: null;
     frequency_hz: null;
     kind: null;
     cable: null;
+    status: "none" | "infeasible" | "failed";
     /** In m/s. */
     searched_up_to: number;
+    /** Null where no cable moves, or there is no equilibrium. */
+    wave_limit: WaveLimit | null;
 }
 
 /** One point of a map; `critical_speed` tells one from the other. */
@@ -186,19 +215,26 @@ export interface FoundMapRow {
     kind: Kind;
     /** The responsible cable, from 1. */
     cable: number;
+    /** In m/s; of several directions the lowest. Null where no cable moves. */
+    wave_limit: number | null;
+    status: "found";
 }
 
-/** Not feasible; or feasible, with no critical speed up to `maxSpeed` (or none that could be computed). */
+/** A point without a critical speed: `status` says why. */
 export interface EmptyMapRow {
     /** In m. */
     x: number;
     /** In m. */
     y: number;
-    feasible: boolean;
+    /** Null where that could not be computed. */
+    feasible: boolean | null;
     critical_speed: null;
     frequency_hz: null;
     kind: null;
     cable: null;
+    /** In m/s; of several directions the lowest. */
+    wave_limit: number | null;
+    status: "none" | "infeasible" | "failed";
 }
 
 // ---- Functions ---------------------------------------------------------------------------------------------------

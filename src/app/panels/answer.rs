@@ -27,7 +27,8 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>) {
             ui.label(reason);
         }
         CriticalState::Failed(failed) => {
-            let title = if failed.cable.is_some() { "▲ No equilibrium" } else { "▲ Not computed" };
+            let infeasible = failed.report.feasible == Some(false);
+            let title = if infeasible { "▲ No equilibrium" } else { "▲ Not computed" };
             ui.colored_label(theme::warning(&visuals), RichText::new(title).size(28.0));
             ui.label(failed.report.reason.as_deref().unwrap_or("This pose could not be analysed."));
             ui.weak("Drag the platform back, or change tensions or masses.");
@@ -59,6 +60,11 @@ fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool
     let visuals = ui.visuals().clone();
     // An old figure is weak, and the line below says that it is being recomputed.
     let shade = |colour| if current { colour } else { visuals.weak_text_color() };
+    if let Some(reason) = &answer.failure {
+        ui.colored_label(shade(theme::warning(&visuals)), RichText::new("▲ Not known").size(32.0));
+        ui.label(reason);
+        return;
+    }
     let Some(critical) = &answer.critical else {
         ui.colored_label(shade(theme::calm(&visuals)), RichText::new("None found").size(32.0));
         ui.label(format!("Stable up to {} m/s, the limit of the search.", answer.searched_up_to));
@@ -102,7 +108,10 @@ fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool
 fn difference(ui: &mut Ui, facts: Facts<'_>, answer: Option<&CriticalAnswer>) {
     let Some(pinned) = facts.pinned else { return };
     let now = answer.and_then(|answer| answer.critical.as_ref());
+    let not_known = |answer: Option<&CriticalAnswer>| answer.is_some_and(|answer| answer.failure.is_some());
     let text = match (pinned.critical(), now) {
+        (Some(before), None) if not_known(answer) => format!("Pinned: {:.4} m/s. Now not known", before.speed),
+        (None, _) if not_known(pinned.search()) => "Pinned: not known".into(),
         (Some(before), Some(now)) => {
             let percent = 100.0 * (now.speed - before.speed) / before.speed;
             let (hertz, unit) = facts.settings.hertz();

@@ -11,44 +11,18 @@ use crate::app::Facts;
 use crate::app::command::Command;
 use crate::app::number::{self, Control, Unit};
 use crate::app::series::{self, Piece};
-use crate::app::studies::{Known, Shown};
+use crate::app::studies::Shown;
 use crate::app::theme;
-use crate::compute::protocol::{Revision, Topic};
+use crate::compute::protocol::Topic;
 
 /// Room for the values of both vertical axes, in points, so that the plots are one above the other.
 const AXIS: f32 = 46.0;
 
-/// The modes of the last study drawn: joining them takes longer than a frame has.
-#[derive(Debug, Default)]
-pub struct Modes {
-    key: Option<((Revision, usize), u64)>,
-    answered: usize,
-    pieces: Vec<Piece>,
-}
-
-impl Modes {
-    /// Joins the modes anew where there is another study, another range or twice as much known.
-    fn update(&mut self, known: &Known, highest: f64) {
-        let key = (known.version, highest.to_bits());
-        if self.key == Some(key) {
-            return;
-        }
-        let answered = known.answered();
-        let same = self.key.is_some_and(|((revision, _), range)| (revision, range) == (known.version.0, key.1));
-        if same && !known.is_complete() && answered < 2 * self.answered.max(8) {
-            return;
-        }
-        (self.key, self.answered) = (Some(key), answered);
-        self.pieces = series::tracks(known, highest).iter().flat_map(series::pieces).collect();
-    }
-}
-
 /// Draws the two plots; a click sets the speed.
 pub fn ui(
-    modes: &mut Modes,
     highest: &mut f64,
     ui: &mut Ui,
-    Facts { document, answers, studies, settings, pinned }: Facts<'_>,
+    Facts { document, answers, studies, joined, settings, pinned }: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
     let Some(Shown { known, current }) = study(ui, Topic::Campbell, studies, commands) else { return };
@@ -65,9 +39,10 @@ pub fn ui(
         let control = Control { name: "Highest frequency", unit, step, size: Vec2::new(80.0, 18.0) };
         number::slider(ui, &control, highest, [0.5, 100.0].map(|end| unit.shown(end)));
     });
-    modes.update(known, *highest);
-    if modes.pieces.is_empty() {
-        ui.weak(if known.is_complete() { "No eigenvalues at this pose." } else { "No answer yet." });
+    let pieces = joined.pieces();
+    if pieces.is_empty() {
+        let ended = known.is_complete() && !joined.is_working();
+        ui.weak(if ended { "No eigenvalues at this pose." } else { "No answer yet." });
         return;
     }
     let height = (0.5 * ui.available_height() - 6.0).max(150.0);
@@ -79,7 +54,7 @@ pub fn ui(
     let (hertz, name) = settings.hertz();
     let frequency = format!("Frequency ({name})");
     for (title, unit, growth) in [(frequency.as_str(), name, false), ("Growth rate (1/s)", "1/s", true)] {
-        let [low, high] = if growth { growth_range(&modes.pieces) } else { [0.0, *highest * hertz] };
+        let [low, high] = if growth { growth_range(pieces) } else { [0.0, *highest * hertz] };
         // Another range is another plot, or the last one's would stay.
         let plot = Plot::new((title, highest.to_bits(), known.version.0))
             .height(height)
@@ -98,7 +73,6 @@ pub fn ui(
                 | HoverPosition::Elsewhere { position: point }) = hover;
                 Some(format!("{:.3} m/s\n{:.4} {unit}", point.x, point.y))
             });
-        let pieces = &modes.pieces;
         let shown = plot.show(ui, |plot| {
             draw(plot, &visuals, pieces, (!growth).then_some(hertz), current);
             if let Some(critical) = critical {

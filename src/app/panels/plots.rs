@@ -23,13 +23,7 @@ const TABS: [(Plot, &str); 8] = [
 ];
 
 /// Draws the tabs, the open plot and the playback. Gives where the plot is.
-pub fn ui(
-    joined: &mut campbell::Modes,
-    state: &mut UiState,
-    ui: &mut Ui,
-    facts: Facts<'_>,
-    commands: &mut Vec<Command>,
-) -> Rect {
+pub fn ui(state: &mut UiState, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) -> Rect {
     playback(&mut state.playback, ui, facts, state.mode, commands);
     ui.separator();
     ui.horizontal_wrapped(|ui| {
@@ -44,7 +38,7 @@ pub fn ui(
         Plot::Modes => modes::ui(ui, facts, state.mode, commands),
         Plot::Line => line::ui(ui, facts, commands),
         Plot::Directions => directions::ui(ui, facts, commands),
-        Plot::Campbell => campbell::ui(joined, &mut state.campbell_hz, ui, facts, commands),
+        Plot::Campbell => campbell::ui(&mut state.campbell_hz, ui, facts, commands),
         Plot::Mesh => mesh::ui(ui, facts, commands),
         Plot::Knobs => knobs::ui(ui, state, facts),
     }

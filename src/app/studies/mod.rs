@@ -4,15 +4,17 @@
 //! [`Studies::take`] takes in what it has found. A study begins anew only where something has changed that it depends
 //! on ([`Wish`]). Until a first picture of the new one is there, the last one stays on show and is marked as old.
 
+mod joined;
 mod wish;
 
+pub use joined::Joined;
 pub use wish::{Wish, wanted};
 
 use std::collections::VecDeque;
 
 use crate::compute::protocol::{PlaceAnswer, Revision, StudyJob, StudyNews, Topic};
 
-/// All topics.
+/// All topics of which there are studies. The joining of modes is kept apart, in [`Joined`].
 pub const TOPICS: [Topic; 5] = [Topic::Line, Topic::Map, Topic::Polar, Topic::Campbell, Topic::Convergence];
 /// So many finished studies of each topic are remembered, for undone changes and tabs that are opened again.
 const REMEMBERED: usize = 4;
@@ -273,7 +275,7 @@ mod tests {
 
     fn places(revision: Revision, places: std::ops::Range<usize>) -> StudyNews {
         #[expect(clippy::cast_precision_loss)]
-        let answers = places.map(|i| (i, PlaceAnswer::Growth(Some(i as f64)))).collect();
+        let answers = places.map(|i| (i, PlaceAnswer::Growth(Ok(i as f64)))).collect();
         StudyNews::Places { topic: Topic::Polar, revision, answers }
     }
 

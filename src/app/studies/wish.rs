@@ -5,7 +5,7 @@ use crate::compute::protocol::{AskedChoice, DirectionsChoice, StudyChoice, Topic
 use crate::robot::{Robot, Vec2};
 use crate::scenario::Scenario;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
-use crate::study::{self, Grid, Line};
+use crate::study::{Grid, Line, workspace};
 
 /// About how many intervals a map has; spread so that they are as wide as they are high.
 const MAP_INTERVALS: f64 = 800.0;
@@ -51,7 +51,7 @@ impl Wish {
             }
             StudyChoice::Polar { .. } => motion.direction = [1.0, 0.0],
             StudyChoice::Line { .. } => start_of_line(&mut scenario),
-            StudyChoice::Campbell { .. } => {}
+            StudyChoice::Campbell { .. } | StudyChoice::Modes { .. } => {}
             StudyChoice::Convergence { .. } => scenario.elements_per_cable = ANY_ELEMENTS,
         }
         Self { scenario, study }
@@ -69,6 +69,7 @@ impl Wish {
             StudyChoice::Map { nx, ny, .. } => nx * ny,
             StudyChoice::Polar { count, .. } | StudyChoice::Campbell { count, .. } => *count,
             StudyChoice::Convergence { counts, .. } => counts.len(),
+            StudyChoice::Modes { .. } => 1,
         }
     }
 
@@ -107,7 +108,7 @@ fn start_of_line(scenario: &mut Scenario) {
 }
 
 fn is_inside(robot: &Robot, position: Vec2) -> bool {
-    let [low, high] = study::workspace(robot);
+    let [low, high] = workspace(robot);
     (0..2).all(|i| (low[i]..=high[i]).contains(&position[i]))
 }
 
@@ -142,7 +143,7 @@ pub fn wanted(scenario: &Scenario, state: &UiState, plot: Option<Plot>, critical
 
 /// Points of a map in a row and in a column.
 fn map_points(robot: &Robot) -> [usize; 2] {
-    let [low, high] = study::workspace(robot);
+    let [low, high] = workspace(robot);
     let size = high - low;
     let side = (size.x * size.y / MAP_INTERVALS).sqrt();
     [size.x, size.y].map(|length| {

@@ -27,8 +27,8 @@ fn growth_map(nx: usize, ny: usize) -> StudyChoice {
     StudyChoice::Map { nx, ny, directions: DirectionsChoice::Motion, asked: AskedChoice::Growth }
 }
 
-const ANSWER: PlaceAnswer = PlaceAnswer::Growth(Some(-1.0));
-const UNKNOWN: VerdictAnswer = VerdictAnswer::NotConverged;
+const ANSWER: PlaceAnswer = PlaceAnswer::Growth(Ok(-1.0));
+const UNKNOWN: VerdictAnswer = VerdictAnswer::Unknown;
 
 /// A scheduler with its clock and what its workers have been told.
 struct Stage {
@@ -324,7 +324,11 @@ fn a_place_that_kills_three_workers_is_given_up_alone() {
     let all = check_complete(stage.scheduler.take_news(), 10);
     let direction = [1.0, 0.0];
     for (place, answer) in all {
-        let expected = if place == deadly { PlaceAnswer::Critical { direction, verdict: UNKNOWN } } else { ANSWER };
+        let expected = if place == deadly {
+            PlaceAnswer::Critical { direction, verdict: UNKNOWN, wave_limit: None }
+        } else {
+            ANSWER
+        };
         assert_eq!(answer, expected, "at {place}");
     }
 }

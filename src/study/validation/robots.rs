@@ -211,7 +211,7 @@ pub fn fine_mesh() -> Result<Outcome, Failed> {
     let mut meshes = Vec::new();
     for elements in [10, 20, 40] {
         let robot = Robot::new(RobotSpec { elements, ..paper_spec() })?;
-        meshes.push((elements, verdict(&robot, &motion, LIMIT)));
+        meshes.push((elements, verdict(&robot, &motion, LIMIT).0));
     }
     let Convergence::Limit(Extrapolation { limit, estimated: true, .. }) = richardson(&meshes, 10) else {
         return Err(Failed::Nothing("limit with an order that was found"));

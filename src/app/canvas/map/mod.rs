@@ -18,7 +18,7 @@ use crate::app::state::{Camera, MapQuantity, MapView, Settings, UiState};
 use crate::app::studies::{Known, Shown, Stage, Studies};
 use crate::app::{Facts, series};
 use crate::compute::protocol::{
-    AskedChoice, DirectionsChoice, PlaceAnswer, Revision, StudyChoice, Topic, VerdictAnswer,
+    AskedChoice, DirectionsChoice, Missing, PlaceAnswer, Revision, StudyChoice, Topic, VerdictAnswer,
 };
 use crate::robot::Vec2 as WorldVec2;
 use crate::scenario::report::KindReport;
@@ -35,6 +35,10 @@ const QUANTITIES: [(MapQuantity, &str, &str); 5] = [
     (MapQuantity::Cable, "Cable", "The cable with most of the kinetic energy of the vibration that grows first"),
     (MapQuantity::Growth, "Growth rate", "The largest growth rate at today's speed, in 1/s; above 0 it is unstable"),
 ];
+
+/// How the map, its legend and its reading call a point without an equilibrium, and one without an answer.
+const NO_EQUILIBRIUM: &str = "no equilibrium";
+const NOT_COMPUTED: &str = "could not be computed";
 
 /// What the picture was made of.
 type Key = ((Revision, usize), MapQuantity, bool);
@@ -230,11 +234,15 @@ fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings) -> St
     let place = format!("At ({:.2}, {:.2}) m", at.x, at.y);
     let said = match known.places.get(index).and_then(Option::as_ref) {
         None => "not computed yet".into(),
-        Some(PlaceAnswer::Growth(Some(rate))) => format!("growth rate {rate:.4} 1/s"),
-        Some(PlaceAnswer::Growth(None) | PlaceAnswer::Spectrum(_)) => "no equilibrium, or no eigenvalues".into(),
-        Some(PlaceAnswer::Critical { direction, verdict }) => match verdict {
-            VerdictAnswer::Infeasible => "no equilibrium".into(),
-            VerdictAnswer::NotConverged => "could not be computed".into(),
+        Some(PlaceAnswer::Growth(Ok(rate))) => format!("growth rate {rate:.4} 1/s"),
+        Some(PlaceAnswer::Growth(Err(Missing::Infeasible))) => NO_EQUILIBRIUM.into(),
+        Some(PlaceAnswer::Growth(Err(Missing::Failed)) | PlaceAnswer::Spectrum(_) | PlaceAnswer::Modes(_)) => {
+            NOT_COMPUTED.into()
+        }
+        Some(PlaceAnswer::Critical { direction, verdict, .. }) => match verdict {
+            VerdictAnswer::Infeasible => NO_EQUILIBRIUM.into(),
+            VerdictAnswer::Unknown => NOT_COMPUTED.into(),
+            VerdictAnswer::NotConverged => format!("critical speed {NOT_COMPUTED}"),
             VerdictAnswer::NoneUpTo(speed) => format!("no critical speed up to {speed:.0} m/s"),
             VerdictAnswer::Critical(critical) => {
                 let kind = match critical.kind {

@@ -6,6 +6,7 @@ use eframe::egui::{
 };
 
 use super::picture::{CLASSES, Cell, Picture};
+use super::{NO_EQUILIBRIUM, NOT_COMPUTED};
 use crate::app::Facts;
 use crate::app::canvas::View;
 use crate::app::state::MapQuantity;
@@ -61,7 +62,7 @@ fn colour(picture: &Picture, cell: Cell, visuals: &Visuals) -> Color32 {
         Cell::Value(value) => theme::sequential(picture.part(value), visuals),
         Cell::Class(class) => theme::class(class),
         Cell::NoneUpTo => theme::calm(visuals).gamma_multiply(0.35),
-        Cell::Unknown | Cell::Infeasible | Cell::NotConverged => return Color32::TRANSPARENT,
+        Cell::Unknown | Cell::Infeasible | Cell::Failed => return Color32::TRANSPARENT,
     };
     colour.gamma_multiply(0.85)
 }
@@ -89,7 +90,10 @@ pub fn patterns(painter: &Painter, visuals: &Visuals, view: &View, picture: &Pic
             _ => text(at, "▲"),
         }
     }
-    for [left, bottom, right, top] in picture.areas(Cell::NotConverged) {
+    // Dots, so that not even a large area looks like one without equilibrium, and a letter in each.
+    for area in picture.areas(Cell::Failed) {
+        dots(painter, visuals, origin, view.rect_in_ui(area));
+        let [left, bottom, right, top] = area;
         text([0.5 * (left + right), 0.5 * (bottom + top)], "?");
     }
 }
@@ -121,6 +125,25 @@ fn hatching(painter: &Painter, visuals: &Visuals, origin: Pos2, area: Rect) {
         let (left, right) = (area.min.x.max(sum - area.max.y), area.max.x.min(sum - area.min.y));
         painter.line_segment([Pos2::new(left, sum - left), Pos2::new(right, sum - right)], stroke);
         sum += HATCHING;
+    }
+}
+
+/// Dots in a square grid that is counted from `origin`.
+fn dots(painter: &Painter, visuals: &Visuals, origin: Pos2, area: Rect) {
+    let area = area.intersect(painter.clip_rect());
+    if !area.is_positive() {
+        return;
+    }
+    let colour = faint(visuals).color;
+    let first = |low: f32, origin: f32| origin + ((low - origin) / HATCHING).ceil() * HATCHING;
+    let mut y = first(area.min.y, origin.y);
+    while y < area.max.y {
+        let mut x = first(area.min.x, origin.x);
+        while x < area.max.x {
+            painter.circle_filled(Pos2::new(x, y), 1.3, colour);
+            x += HATCHING;
+        }
+        y += HATCHING;
     }
 }
 
@@ -205,7 +228,15 @@ pub fn legend(
         entry(&swatch, "unstable");
     }
     if picture.has(Cell::Infeasible) {
-        entry(&|square| hatching(painter, visuals, square.min, square), "no equilibrium");
+        entry(&|square| hatching(painter, visuals, square.min, square), NO_EQUILIBRIUM);
+    }
+    if picture.has(Cell::Failed) {
+        let swatch = |square: Rect| {
+            let strong = visuals.strong_text_color();
+            dots(painter, visuals, square.min + Vec2::splat(3.0), square);
+            painter.text(square.center(), Align2::CENTER_CENTER, "?", FontId::proportional(11.0), strong);
+        };
+        entry(&swatch, NOT_COMPUTED);
     }
     if let Some(speed) = picture.none_up_to.filter(|_| picture.has(Cell::NoneUpTo)) {
         let swatch = |square: Rect| {

@@ -2,7 +2,7 @@
 
 use crate::app::state::MapQuantity;
 use crate::app::studies::Known;
-use crate::compute::protocol::{PlaceAnswer, VerdictAnswer};
+use crate::compute::protocol::{Missing, PlaceAnswer, VerdictAnswer};
 use crate::robot::Vec2;
 use crate::scenario::report::{CriticalReport, KindReport};
 use crate::study::Grid;
@@ -21,8 +21,8 @@ pub enum Cell {
     Unknown,
     /// No equilibrium.
     Infeasible,
-    /// The eigenvalues could not be computed.
-    NotConverged,
+    /// It could not be computed.
+    Failed,
     /// No critical speed up to the limit of the search.
     NoneUpTo,
     /// A value, in SI units or Hz.
@@ -173,13 +173,14 @@ fn cell(answer: Option<&PlaceAnswer>, quantity: MapQuantity) -> Cell {
     match answer {
         Some(PlaceAnswer::Critical { verdict, .. }) => match verdict {
             VerdictAnswer::Infeasible => Cell::Infeasible,
-            VerdictAnswer::NotConverged => Cell::NotConverged,
+            VerdictAnswer::Unknown | VerdictAnswer::NotConverged => Cell::Failed,
             VerdictAnswer::NoneUpTo(_) => Cell::NoneUpTo,
             VerdictAnswer::Critical(critical) => show(critical, quantity),
         },
-        Some(PlaceAnswer::Growth(Some(rate))) if quantity == MapQuantity::Growth => Cell::Value(*rate),
-        Some(PlaceAnswer::Growth(None)) => Cell::Infeasible,
-        Some(PlaceAnswer::Growth(_) | PlaceAnswer::Spectrum(_)) | None => Cell::Unknown,
+        Some(PlaceAnswer::Growth(Ok(rate))) if quantity == MapQuantity::Growth => Cell::Value(*rate),
+        Some(PlaceAnswer::Growth(Err(Missing::Infeasible))) => Cell::Infeasible,
+        Some(PlaceAnswer::Growth(Err(Missing::Failed))) => Cell::Failed,
+        Some(PlaceAnswer::Growth(_) | PlaceAnswer::Spectrum(_) | PlaceAnswer::Modes(_)) | None => Cell::Unknown,
     }
 }
 
@@ -244,6 +245,7 @@ fn neighbours(grid: &Grid, pos_in_world: Vec2) -> [(usize, usize, f64); 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::state::Settings;
     use crate::app::studies::Wish;
     use crate::compute::protocol::{AskedChoice, DirectionsChoice, StudyChoice};
     use crate::scenario::presets;
@@ -258,11 +260,11 @@ mod tests {
 
     fn critical(speed: f64, cable: usize) -> PlaceAnswer {
         let critical = CriticalReport { speed, frequency_hz: 1.0, kind: KindReport::Flutter, cable };
-        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Critical(critical) }
+        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Critical(critical), wave_limit: None }
     }
 
     fn infeasible() -> PlaceAnswer {
-        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Infeasible }
+        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Infeasible, wave_limit: None }
     }
 
     #[test]
@@ -298,10 +300,32 @@ mod tests {
         let labels = Picture::new(&lone, MapQuantity::Cable).expect("a map").labels();
         assert_eq!(labels.iter().filter(|(_, cell)| *cell == Cell::Class(0)).count(), 1);
 
-        let rates = known(|column, _| Some(PlaceAnswer::Growth(Some(if column > 30 { 200.0 } else { -0.2 }))));
+        let rates = known(|column, _| Some(PlaceAnswer::Growth(Ok(if column > 30 { 200.0 } else { -0.2 }))));
         let picture = Picture::new(&rates, MapQuantity::Growth).expect("a map");
         assert_eq!((picture.range, picture.beyond), (Some([-0.2, 0.4]), true));
         assert!(picture.labels().iter().all(|(_, cell)| *cell == Cell::Value(200.0)) && !picture.labels().is_empty());
+    }
+
+    /// They are drawn, read and explained in another way than those without equilibrium, on every kind of map.
+    #[test]
+    fn what_could_not_be_computed_is_no_infeasible_pose() {
+        let verdict = |verdict| PlaceAnswer::Critical { direction: [1.0, 0.0], verdict, wave_limit: None };
+        let growth = PlaceAnswer::Growth;
+        for (failed, infeasible, quantity) in [
+            (verdict(VerdictAnswer::Unknown), verdict(VerdictAnswer::Infeasible), MapQuantity::Speed),
+            (verdict(VerdictAnswer::NotConverged), verdict(VerdictAnswer::Infeasible), MapQuantity::Cable),
+            (growth(Err(Missing::Failed)), growth(Err(Missing::Infeasible)), MapQuantity::Growth),
+        ] {
+            let half = known(|column, _| Some(if column < 20 { failed.clone() } else { infeasible.clone() }));
+            let picture = Picture::new(&half, quantity).expect("a map");
+            assert_eq!(
+                (picture.at(Vec2::new(-5.0, 0.0)), picture.at(Vec2::new(5.0, 0.0))),
+                (Cell::Failed, Cell::Infeasible)
+            );
+            let at = |index| super::super::reading(&half, index, Vec2::zeros(), Settings::default());
+            assert!(at(0).contains("could not be computed") && !at(0).contains("equilibrium"), "{}", at(0));
+            assert!(at(40).contains("no equilibrium"), "{}", at(40));
+        }
     }
 
     #[test]
