@@ -332,6 +332,8 @@ impl Control<'_> {
         let shown = self.unit.shown(value);
         response.widget_info(|| WidgetInfo::drag_value(ui.is_enabled(), shown));
         let refused = ui.data(|data| data.get_temp::<Refusal>(refusal_id())).filter(|it| it.id == response.id);
+        // Measured before, since nothing else may be asked for while the node is written.
+        let short = self.short(ui, value);
         ui.ctx().accesskit_node_builder(response.id, |node| {
             node.clear_label();
             node.set_numeric_value_step(self.step);
@@ -339,7 +341,7 @@ impl Control<'_> {
                 node.add_action(action);
             }
             if !edited {
-                node.set_value(self.unit.with_name(&self.unit.full(value)));
+                node.set_value(short);
             }
             if let Some(refusal) = &refused {
                 node.set_invalid(Invalid::True);

@@ -140,6 +140,8 @@ fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
             field.number.copy(sheet.original, &mut sheet.edited);
         }
         if let Some(value) = answer.value {
+            // A hand that drags too far stops at zero, where there is nothing beyond.
+            let value = if low == 0.0 && answer.response.dragged() { value.max(0.0) } else { value };
             match fields::edited(&sheet.edited, field, value, sheet.settings) {
                 Ok(edited) => sheet.edited = edited,
                 Err(reason) => answer.refuse(ui, reason),

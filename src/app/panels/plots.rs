@@ -102,7 +102,7 @@ fn playback(
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().slider_width = 70.0;
         let tempo = playback.slow_motion;
-        let control = Control { name: "Tempo", unit: Unit::of(""), step: 0.01 * tempo, size: Vec2::new(48.0, 18.0) };
+        let control = Control { name: "Tempo", unit: Unit::of(""), step: 0.01 * tempo, size: Vec2::new(64.0, 18.0) };
         number::slider(ui, &control, &mut playback.slow_motion, [0.02, 2.0])
             .on_hover_text("Seconds of the robot per second of the screen");
         if cfg!(target_arch = "wasm32") {
