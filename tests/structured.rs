@@ -10,9 +10,13 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
+use common::dense::Parts;
 use common::judge::{Drawn, Verdict, judge_critical_speed, judge_eigenvalues};
+use common::referee::divergences;
 use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2, paper_spec};
-use tautline::stability::{CriticalSearch, Doubt, Method, NotConverged, Outcome, Solver, structured};
+use tautline::stability::{
+    CriticalSearch, Doubt, Kind, Method, NotConverged, Outcome, Solver, structured, unstable_eigenvalues,
+};
 use tautline::{Local, Motion, Robot};
 
 /// The usual number of robots.
@@ -176,11 +180,8 @@ fn the_critical_speed_is_that_of_the_dense_scan() {
         }
     }
     println!("{count} critical speeds; left to a scan: {}", by_kind(&scanned));
-    // Without damping or with mass damping alone it has to be (docs/theory.md section 11).
-    let stiff = |seed: &u64| drawn().any(|(other, (.., damping))| other == seed && damping.beta > 0.0);
-    let unforced: Vec<_> = scanned.iter().filter(|(seed, doubt)| *doubt != Doubt::Undamped && stiff(seed)).collect();
     assert!(wrong.is_empty(), "of {count}:\n{wrong}");
-    assert!(unforced.len() * 50 <= count.max(50), "{unforced:?} left to a scan");
+    assert!(scanned.len() * 200 <= count, "{scanned:?} left to a scan");
     assert!(not_judged * 50 <= count.max(100), "{not_judged} of {count} not judged");
 }
 
@@ -195,6 +196,88 @@ fn by_kind(scanned: &[(u64, Doubt)]) -> String {
     }
     let each = kinds.iter().map(|(doubt, seeds)| format!("\n  {:4} {doubt:?}: {seeds:?}", seeds.len()));
     format!("{}{}", scanned.len(), each.collect::<String>())
+}
+
+/// Robots of the usual kind for which an answer is looked for, without a referee.
+const ANSWERED: u64 = 300;
+
+/// Whatever its damping, every robot's critical speed is found, or none up to the limit, and at most one of 200 by a scan.
+#[test]
+fn no_damped_robot_is_left_unknown() {
+    let seeds = if is_full_run() { seeds() } else { (0..ANSWERED).collect() };
+    let verdicts = for_each_robot(&seeds, |robot, local| {
+        let mut search = CriticalSearch::new(LIMIT);
+        let answered = loop {
+            match search.advance(&local.vibration) {
+                Ok(None) => {}
+                Ok(Some(_)) => break true,
+                Err(NotConverged) => break false,
+            }
+        };
+        (answered, search.doubt(), robot.damping)
+    });
+    let unknown: Vec<_> = verdicts.iter().filter(|(_, verdict)| !verdict.0).collect();
+    assert!(unknown.is_empty(), "{unknown:?}");
+    let damped: Vec<_> = verdicts.iter().filter(|(_, (.., d))| d.alpha > 0.0 || d.beta > 0.0).collect();
+    let scanned: Vec<_> = damped.iter().filter_map(|(seed, verdict)| Some((*seed, verdict.1?))).collect();
+    println!("{} damped robots; left to a scan: {}", damped.len(), by_kind(&scanned));
+    assert!(damped.len() * 10 > verdicts.len() * 8, "{} of {} are damped", damped.len(), verdicts.len());
+    assert!(scanned.len() * 200 < damped.len(), "{scanned:?} of {} damped robots", damped.len());
+}
+
+/// Mass damping leaves all 1588 modes of this robot near the axis, but at λ = 0 it has no part: the divergence is the
+/// same with any damping, and bounds the search from above.
+#[test]
+fn a_divergence_does_not_need_a_scan() {
+    let alone = Damping { alpha: 20.0, beta: 0.0 };
+    for damping in [alone, Damping { beta: 1e-9, ..alone }, Damping { beta: 1e-4, ..alone }] {
+        let spec = RobotSpec { elements: 100, linearisation: Linearisation::Tangent, damping, ..paper_spec() };
+        let robot = Robot::new(spec).expect("physical");
+        let motion = Motion::new([0.0, 0.0], [1.0, 0.0], 0.0).expect("a motion");
+        let local = Local::new(&robot, &motion).expect("statics");
+        let mut search = CriticalSearch::new(40.0);
+        let outcome = loop {
+            match search.advance(&local.vibration) {
+                Ok(None) => {}
+                ended => break ended,
+            }
+        };
+        let Ok(Some(Outcome::Found(critical))) = outcome else { panic!("{damping:?}: {outcome:?}") };
+        assert_eq!((critical.kind, search.doubt(), search.samples()), (Kind::Divergence, None, &[][..]), "{damping:?}");
+        assert!((critical.speed - 11.939_098_568).abs() < 1e-9, "{damping:?}: {critical:?}");
+        if damping == alone {
+            let parts = Parts::new(&robot, &local.statics, &local.rates);
+            let lowest = divergences(&parts).expect("eigenvalues")[0];
+            assert!((critical.speed - lowest).abs() < 1e-8, "{critical:?}, not {lowest}");
+        }
+    }
+}
+
+/// Robots with mass damping alone and speeds (m/s) at which many eigenvalues are far nearer to the axis than to each other:
+/// so evenly spaced ones once passed for turns of the phase that were none.
+const NEAR_THE_AXIS: [(u64, [f64; 3]); 5] = [
+    (46, [11.75, 12.35, 12.37]),
+    (395, [3.64, 5.38, 5.39]),
+    (255, [13.6, 19.49, 19.5]),
+    (494, [0.16, 0.1619, 0.163]),
+    (55, [0.0817, 0.082, 0.0821]),
+];
+
+#[test]
+fn unstable_modes_are_counted_where_all_are_near_the_axis() {
+    for (seed, speeds) in NEAR_THE_AXIS {
+        let (robot, local) = random(seed);
+        assert!(robot.damping.alpha > 0.0 && robot.damping.beta == 0.0, "seed {seed}: {:?}", robot.damping);
+        let drawn = Drawn::new(robot, local);
+        for speed in speeds {
+            let known = drawn.referee.eigenvalues(speed).expect("eigenvalues");
+            // Many times the referee's rounding.
+            assert!(known.iter().all(|l| l.re.abs() > 1e-6), "seed {seed} at {speed} m/s is too near");
+            let unstable = known.iter().filter(|l| l.re > 0.0).count() * drawn.referee.multiplicity;
+            let counted = unstable_eigenvalues(&drawn.local.vibration, speed);
+            assert_eq!(counted, Some(unstable), "seed {seed} at {speed} m/s");
+        }
+    }
 }
 
 /// How often the structured solvers are in doubt, without a referee: for many robots in little time.

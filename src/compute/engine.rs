@@ -308,7 +308,7 @@ impl Pose {
                     Err(error) => Err(sentence(&error.to_string())),
                 };
                 let scan: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
-                let scanned = search.searched_up_to();
+                let scanned = scan.last().map_or(0.0, |point| point[0]);
                 let mut replies = vec![self.reply(Update::Critical(CriticalAnswer {
                     critical: outcome.as_ref().ok().and_then(CriticalReport::of),
                     failure: outcome.as_ref().err().cloned(),

@@ -46,14 +46,14 @@ struct Line {
 
 /// A [`Characteristic`] on the imaginary axis, with the last lines prepared; no value allocates.
 #[derive(Debug)]
-pub(super) struct Axis<'a> {
-    function: &'a Characteristic,
+pub(super) struct Axis {
+    function: Characteristic,
     lines: [Line; KEPT],
     evaluations: u64,
 }
 
-impl<'a> Axis<'a> {
-    pub(super) fn new(function: &'a Characteristic) -> Self {
+impl Axis {
+    pub(super) fn new(function: Characteristic) -> Self {
         let nodes = function.scalar_nodes();
         let line = || Line { speed: f64::NAN, used: 0, nodes: Vec::with_capacity(nodes) };
         Self { function, lines: std::array::from_fn(|_| line()), evaluations: 0 }
@@ -145,7 +145,7 @@ mod tests {
             let robot = Robot::new(RobotSpec { linearisation, ..paper_spec() }).unwrap();
             let local = Local::new(&robot, &Motion::new([2.0, 0.5], [1.0, 0.4], 5.0).unwrap()).unwrap();
             let function = Characteristic::new(&local.vibration);
-            let mut axis = Axis::new(&function);
+            let mut axis = Axis::new(function.clone());
             for speed in [0.0, 3.0, 11.0, 3.0, 5.0, 6.0, 7.0, 3.0, 11.0] {
                 for omega in [0.0, 0.7, 5.3, 30.0, 400.0] {
                     let (got, expected) =

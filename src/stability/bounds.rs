@@ -33,8 +33,14 @@ const BISECTIONS: usize = 40;
 /// Bounds are moved by this factor to the safe side of their own rounding.
 const MARGIN: f64 = 1e-6;
 
+/// Below this part of the square of the lowest frequency at which an element swings by itself the mesh is as good as a cable.
+const SMOOTH: f64 = 0.25;
+
+/// Eigenvalues nearer to the axis than this part of what is between them count as far nearer.
+const SHARP: f64 = 0.5;
+
 /// Bounds of what can cross, from the extremes over all elements. SI units.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Bounds {
     damping: Damping,
     /// r in 1/m.
@@ -49,13 +55,49 @@ pub(super) struct Bounds {
     lowest: f64,
     /// The square of a frequency above every undamped one.
     highest: f64,
-    /// The longest time of a wave along a cable, in s: the modes of the cable per rad/s, times π. And that of all cables
-    /// together.
+    /// How many modes the mesh has, those of one direction where the problem is isotropic.
+    modes: usize,
+    /// Waves by the smaller stiffness of each element: across the cable.
+    across: Waves,
+    /// Waves by the larger one: along the cable. The same where the problem is isotropic.
+    along: Waves,
+    /// 12 k/m of every element and stiffness, in 1/s²: the square of the highest frequency of a mesh of such elements.
+    /// Those of one direction where the problem is isotropic.
+    cutoffs: Vec<f64>,
+    /// The square of a frequency (1/s²) up to which the mesh does not matter.
+    smooth: f64,
+}
+
+/// Waves that travel through the cables by one of the two stiffnesses of each element.
+#[derive(Clone, Copy, Debug, Default)]
+struct Waves {
+    /// The largest |w|/c at v = 1, in s/m.
+    slowness: f64,
+    /// The square of a frequency (1/s²) above every undamped one of a mesh with these stiffnesses.
+    highest: f64,
+    /// The longest time of a wave along a cable, in s: the modes of the cable per rad/s, times π.
     travel: f64,
+    /// That of all cables together.
     travels: f64,
 }
 
+impl Waves {
+    /// Takes a cable in, from its elements with one stiffness (N/m) of each.
+    fn add(&mut self, elements: impl Iterator<Item = (Flow, f64)>) {
+        let mut travel = 0.0;
+        for (element, stiffness) in elements {
+            let through = element.through[0].abs().max(element.through[1].abs());
+            self.slowness = self.slowness.max(through / (element.mass * stiffness).sqrt());
+            self.highest = self.highest.max(12.0 * stiffness / element.mass);
+            travel += (element.mass / stiffness).sqrt();
+        }
+        self.travel = self.travel.max(travel);
+        self.travels += travel;
+    }
+}
+
 /// One element's flow and stiffness in the units of the bounds.
+#[derive(Clone, Copy)]
 struct Flow {
     /// μ l in kg.
     mass: f64,
@@ -93,9 +135,13 @@ impl Bounds {
             curvature: 0.0,
             lowest: 0.0,
             highest: 0.0,
-            travel: 0.0,
-            travels: 0.0,
+            modes: if vibration.isotropic { vibration.nodes() } else { 2 * vibration.nodes() },
+            across: Waves::default(),
+            along: Waves::default(),
+            cutoffs: Vec::new(),
+            smooth: f64::INFINITY,
         };
+        let directions = if vibration.isotropic { 1 } else { 2 };
         let (mut compliance, mut hub_stiffness) = (0.0_f64, 0.0);
         for chain in &vibration.chains {
             let mut before = match vibration.hub {
@@ -103,7 +149,6 @@ impl Bounds {
                 Hub::Fixed => None,
             };
             let (mut stretch, mut mass, mut softest) = (0.0, 0.0, f64::INFINITY);
-            let mut travel = 0.0;
             for element in &chain.elements {
                 let one = Flow::of(element);
                 let largest = |pair: [f64; 2]| pair[0].abs().max(pair[1].abs());
@@ -116,13 +161,14 @@ impl Bounds {
                     }
                 }
                 before = Some([one.through[1], one.rate[1]]);
+                bounds.cutoffs.extend(one.elastic.iter().take(directions).map(|k| 12.0 * k / one.mass));
+                bounds.smooth = bounds.smooth.min(SMOOTH * 12.0 * one.elastic[0] / one.mass);
                 let impedance = (one.mass * one.elastic[0]).sqrt();
                 bounds.reeling = bounds.reeling.max((one.through[1] - one.through[0]) / one.mass);
                 bounds.slowness = bounds.slowness.max(largest(one.through) / impedance);
                 bounds.acceleration = bounds.acceleration.max(largest(one.rate) / impedance);
                 bounds.curvature = bounds.curvature.max(0.5 * (one.rate[1] - one.rate[0]).abs() / one.mass);
                 bounds.highest = bounds.highest.max(12.0 * one.elastic[1] / one.mass);
-                travel += (one.mass / one.elastic[0]).sqrt();
                 stretch += 1.0 / one.elastic[0];
                 mass += one.mass;
                 softest = softest.min(one.elastic[0]);
@@ -131,15 +177,16 @@ impl Bounds {
             let n = chain.elements.len() as f64;
             compliance = compliance.max(4.0 / PI.powi(2) * mass * n / softest);
             hub_stiffness += 1.0 / stretch;
-            bounds.travel = bounds.travel.max(travel);
-            bounds.travels += travel;
+            let flows = || chain.elements.iter().map(Flow::of);
+            bounds.across.add(flows().map(|flow| (flow, flow.elastic[0])));
+            bounds.along.add(flows().map(|flow| (flow, flow.elastic[1])));
         }
         let hub = match vibration.hub {
             Hub::Platform(mass) => mass / hub_stiffness,
             Hub::Fixed => 0.0,
         };
         bounds.lowest = 1.0 / (compliance + hub);
-        let numbers = [bounds.slowness, bounds.acceleration, bounds.highest, bounds.lowest, bounds.travels];
+        let numbers = [bounds.slowness, bounds.acceleration, bounds.highest, bounds.lowest, bounds.across.travels];
         numbers.iter().all(|number| number.is_finite()).then_some(bounds)
     }
 
@@ -161,20 +208,28 @@ impl Bounds {
         low * (1.0 - MARGIN)
     }
 
+    /// The highest frequency (rad/s) with which something can cross at speeds up to `v` that swings with at most
+    /// `hat` (rad/s) at rest: (2), on the right.
+    fn upper(&self, hat: f64, v: f64) -> f64 {
+        v * self.slowness * hat + (hat * hat + v * v * self.curvature).sqrt()
+    }
+
     /// A frequency (rad/s) above which nothing can cross at speeds up to `v`.
     pub(super) fn highest_frequency(&self, v: f64) -> f64 {
         let Damping { alpha, beta } = self.damping;
-        // (2), on the right.
-        let upper = |hat: f64| v * self.slowness * hat + (hat * hat + v * v * self.curvature).sqrt();
-        let top = upper(self.highest.sqrt());
-        // At frequencies from ω on, (1) bounds ω̂ by the larger root of β ω̂² − (v² a/ω) ω̂ − (v r − α), and (2) bounds
-        // frequencies by that: nothing crosses from where this falls below ω on.
+        let (mesh, fast) = (self.highest.sqrt(), v * self.slowness);
+        let top = self.upper(mesh, v);
+        // At frequencies from ω on, (1) has ω̂ between the roots of β ω̂² − (v² a/ω) ω̂ − (v r − α); the smaller one is of
+        // use where damping prevails. (2) bounds frequencies by ω̂ from both sides: nothing crosses from where they
+        // contradict each other. What holds at one ω holds at all higher ones.
         let closed = |omega: f64| {
-            let (b, c) = (v * v * self.acceleration / omega, v * self.reeling - alpha);
-            let discriminant = b * b + 4.0 * beta * c;
-            discriminant < 0.0 || upper((b + discriminant.sqrt()) / (2.0 * beta)) < omega
+            let Some([least, most]) = between(beta, v * v * self.acceleration / omega, v * self.reeling - alpha) else {
+                return true;
+            };
+            let lower = (least * least - v * v * self.curvature).max(0.0).sqrt() - fast * least;
+            least > mesh || (fast < 1.0 && lower > omega) || self.upper(most, v) < omega
         };
-        if beta == 0.0 || !closed(top) {
+        if !closed(top) {
             return top * (1.0 + MARGIN);
         }
         let (mut open, mut shut) = (0.0, top);
@@ -189,20 +244,15 @@ impl Bounds {
     pub(super) fn largest_unstable(&self, v: f64) -> f64 {
         let Damping { alpha, beta } = self.damping;
         let fast = ((v * self.slowness).powi(2) - 1.0).max(0.0);
+        let top = self.highest.sqrt();
         // From |λ| = R on, (3) bounds ω̂, and (4) bounds |λ| by that.
         let closed = |radius: f64| {
-            let a = beta - fast / radius;
             let b = v * v * self.acceleration / radius;
             let c = v * self.reeling - alpha + v * v * self.curvature / radius;
-            let discriminant = b * b + 4.0 * a * c;
-            let top = self.highest.sqrt();
-            let hat = match (a > 0.0, discriminant < 0.0) {
-                (true, true) => return true,
-                (true, false) => top.min((b + discriminant.sqrt()) / (2.0 * a)),
-                (false, _) => top,
-            };
+            let Some([least, most]) = between(beta - fast / radius, b, c) else { return true };
+            let hat = top.min(most);
             let q = hat * hat * (1.0 + (v * self.slowness).powi(2)) + v * v * self.acceleration * hat;
-            2.0 * v * self.slowness * hat + v * self.reeling + 2.0 * q / radius < radius
+            least > top || 2.0 * v * self.slowness * hat + v * self.reeling + 2.0 * q / radius < radius
         };
         let mut shut = self.lowest.sqrt();
         while shut.is_finite() && !closed(shut) {
@@ -216,23 +266,73 @@ impl Bounds {
         shut * (1.0 + MARGIN)
     }
 
+    /// How many modes the mesh has, those of one direction where the problem is isotropic.
+    pub(super) fn modes(&self) -> usize {
+        self.modes
+    }
+
     /// How fast an undamped frequency of `omega` decays at rest, in 1/s: so far from the axis are eigenvalues there.
     pub(super) fn decay(&self, omega: f64) -> f64 {
         0.5 * (self.damping.alpha + self.damping.beta * omega * omega)
     }
 
-    /// The number of all cables' frequencies per rad/s.
-    pub(super) fn frequency_density(&self) -> f64 {
-        self.travels / PI
+    /// The waves that swing the mesh at about `omega` (rad/s) and a speed of `v`: beyond the highest frequency across the
+    /// cables those along them alone.
+    fn waves(&self, omega: f64, v: f64) -> &Waves {
+        if omega > self.upper(self.across.highest.sqrt(), v) { &self.along } else { &self.across }
+    }
+
+    /// Whether waves of the frequency `omega` (rad/s) are so short that the mesh matters.
+    fn mesh_matters(&self, omega: f64) -> bool {
+        omega * omega > self.smooth
+    }
+
+    /// Whether, up to the frequency `omega` (rad/s), waves for which the mesh matters may have eigenvalues far nearer to the
+    /// axis than to each other: mass damping, which reeling cancels, alone keeps them off it.
+    pub(super) fn is_sharp(&self, omega: f64) -> bool {
+        let decay = 0.5 * self.damping.beta * self.smooth;
+        self.mesh_matters(omega) && decay * self.across.travels / PI < SHARP
+    }
+
+    /// A step from the frequency `omega` (rad/s) upwards in which so many of all cables' frequencies are expected as in
+    /// `low` of them where the mesh does not matter, or in `high` of them where it does.
+    pub(super) fn frequency_step(&self, omega: f64, [low, high]: [f64; 2]) -> f64 {
+        let square = omega * omega;
+        if !self.mesh_matters(omega) {
+            return low * PI / self.across.travels;
+        }
+        // Elements with stiffness k and mass m have ω̂² = 6 (k/m) (1 − cos θ)/(2 + cos θ) with a phase of θ from node to node
+        // (`undamped`). θ/π is an element's share in the number of frequencies up to ω̂; this is its slope. It is infinite
+        // where θ is π, but there the step ends with all that are left of these elements, at most twice as many.
+        let density = |cutoff: &f64| {
+            let x = 12.0 * square / cutoff;
+            let root = ((12.0 - x) * cutoff).max(0.0).sqrt();
+            if root > 0.0 { 72.0 / ((6.0 + x) * root) } else { 0.0 }
+        };
+        high * PI / self.cutoffs.iter().map(density).sum::<f64>()
     }
 
     /// The step in v (m/s) in which a frequency of `omega` moves by the spacing of the frequencies of the cable in which
     /// a wave travels longest, near `speed`.
     pub(super) fn speed_step(&self, omega: f64, speed: f64) -> f64 {
+        let waves = self.waves(omega, speed);
         // A string's frequencies fall as 1 − (s v)²; this has the steepest slope before they are zero.
-        let slope = 2.0 * self.slowness * (self.slowness * speed).min(1.0) * omega;
-        PI / self.travel / slope
+        let slope = 2.0 * waves.slowness * (waves.slowness * speed).min(1.0) * omega;
+        PI / waves.travel / slope
     }
+}
+
+/// Where a x² − b x − c ≤ 0 for x ≥ 0, b not negative: from the first to the second number; `None` where nowhere.
+fn between(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
+    let discriminant = b * b + 4.0 * a * c;
+    if discriminant < 0.0 {
+        // Without a real root the sign is that of a, as far out.
+        return (a < 0.0).then_some([0.0, f64::INFINITY]);
+    }
+    let root = discriminant.sqrt();
+    // Without cancellation.
+    let least = if c < 0.0 { -2.0 * c / (b + root) } else { 0.0 };
+    Some([least, if a > 0.0 { (b + root) / (2.0 * a) } else { f64::INFINITY }])
 }
 
 #[cfg(test)]
@@ -297,8 +397,8 @@ mod tests {
         near(bounds.slowness, largest(each(&|i| rates[i][0].abs() / c[i])), 1e-12, "s");
         near(bounds.acceleration, largest(each(&|i| rates[i][1].abs() / c[i])), 1e-12, "a");
         near(bounds.curvature, largest(each(&|i| 0.5 * rates[i][1].abs() / lengths[i])), 1e-12, "e");
-        near(bounds.travel, largest(travel), 1e-12, "the longest time of a wave");
-        near(bounds.frequency_density(), (travel[0] + travel[1]) / PI, 1e-12, "frequencies per rad/s");
+        near(bounds.across.travel, largest(travel), 1e-12, "the longest time of a wave");
+        near(bounds.frequency_step(1.0, [1.4, 0.7]), 1.4 * PI / (travel[0] + travel[1]), 1e-12, "a step in ω");
         // A string held at one end, and the platform on both cables.
         let held = largest(each(&|i| (2.0 * travel[i] / PI).powi(2)));
         let hung = 5.0 / (across[0] / lengths[0] + across[1] / lengths[1]);
@@ -354,6 +454,7 @@ mod tests {
     }
 
     fn some_bounds(alpha: f64, beta: f64) -> Bounds {
+        let waves = Waves { slowness: 0.07, highest: 4e6, travel: 1.0, travels: 3.0 };
         Bounds {
             damping: Damping { alpha, beta },
             reeling: 0.11,
@@ -362,8 +463,11 @@ mod tests {
             curvature: 0.02,
             lowest: 2.5,
             highest: 4e6,
-            travel: 1.0,
-            travels: 3.0,
+            modes: 1000,
+            across: waves,
+            along: waves,
+            cutoffs: vec![4e6; 1000],
+            smooth: 1e6,
         }
     }
 
@@ -394,12 +498,76 @@ mod tests {
             let hat = root(|hat| upper(hat) - omega);
             let damping = omega * (alpha + beta * hat * hat - v * bounds.reeling);
             near(damping, v * v * bounds.acceleration * hat, 1e-4, "(1)");
-            let undamped = Bounds { damping: Damping { alpha, beta: 0.0 }, ..bounds };
+            let undamped = Bounds { damping: Damping { alpha, beta: 0.0 }, ..bounds.clone() };
             near(undamped.highest_frequency(v), upper(2e3), 2e-6, "of the mesh");
         }
-        // Mass damping outweighs the reeling: (1) has no solution where its discriminant is negative.
-        let limit = 81.0 * 0.013 / (2.0 * (0.02_f64 * (5.0 - 9.0 * 0.11)).sqrt());
-        near(some_bounds(5.0, 0.02).highest_frequency(9.0), limit, 1e-5, "with much mass damping");
+    }
+
+    /// Where mass damping outweighs the reeling, (1) and the left of (2) hold with equality at the highest frequency.
+    #[test]
+    fn mass_damping_lowers_the_highest_frequency() {
+        for (alpha, beta, v) in [(5.0, 0.02, 9.0), (5.0, 0.0, 9.0), (3.0, 0.0, 13.5)] {
+            let bounds = some_bounds(alpha, beta);
+            let omega = bounds.highest_frequency(v);
+            let lower = |hat: f64| (hat * hat - v * v * bounds.curvature).max(0.0).sqrt() - v * bounds.slowness * hat;
+            let hat = root(|hat| lower(hat) - omega).min(2e3);
+            let damping = omega * (alpha + beta * hat * hat - v * bounds.reeling);
+            near(damping, v * v * bounds.acceleration * hat, 1e-4, "(1)");
+            assert!(omega < 0.9 * bounds.upper(2e3, v), "{omega}");
+        }
+    }
+
+    /// A quadratic's sign, from its values.
+    #[test]
+    fn a_quadratic_is_not_positive_between_its_roots() {
+        for a in [-2.0, -1e-9, 0.0, 1e-9, 3.0] {
+            for b in [0.0, 1e-6, 4.0] {
+                for c in [-5.0, -1e-6, 0.0, 1e-6, 7.0] {
+                    let found = between(a, b, c);
+                    for x in [0.0, 1e-9, 0.3, 1.0, 1.5, 1e3, 1e7] {
+                        let value = a * x * x - b * x - c;
+                        let inside = found.is_some_and(|[least, most]| (least..=most).contains(&x));
+                        let rounding = 1e-12 * (a.abs() * x * x + b * x + c.abs());
+                        assert!(value.abs() <= rounding || inside == (value < 0.0), "{a} {b} {c} {x}: {found:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Of a uniform string on a mesh with fixed ends the steps up to its j-th frequency add up to j, to the last one.
+    #[test]
+    fn steps_in_frequency_count_the_frequencies_of_the_mesh() {
+        let n = 6;
+        let (length, tension) = (11.0, 40.0);
+        let chain = straight(length, tension, [0.0, 0.0]);
+        let damping = Damping { alpha: 0.0, beta: 0.0 };
+        let isotropic = Vibration { chains: vec![chain], hub: Hub::Fixed, damping, isotropic: true };
+        let mut bounds = Bounds::new(&isotropic).unwrap();
+        // The mesh matters everywhere, so that the exact density is taken.
+        bounds.smooth = -1.0;
+        let travel = length / (tension / MATERIAL.stretch(tension) / MU).sqrt();
+        let frequency = |j: i32| {
+            let cosine = (PI * f64::from(j) / f64::from(n)).cos();
+            f64::from(n) / travel * (6.0 * (1.0 - cosine) / (2.0 + cosine)).sqrt()
+        };
+        let (mut omega, mut count) = (0.0, 0.0);
+        for j in 1..n {
+            while omega < frequency(j) {
+                omega += bounds.frequency_step(omega, [1.0, 1e-4]);
+                count += 1e-4;
+            }
+            near(count, f64::from(j), 2e-3, "frequencies");
+        }
+    }
+
+    /// Stiffness damping keeps the modes of a fine mesh off the axis; where there is none of it reeling brings them near.
+    #[test]
+    fn eigenvalues_are_near_the_axis_without_stiffness_damping() {
+        for (beta, omega, sharp) in [(0.0, 1.1e3, true), (0.0, 0.9e3, false), (1e-5, 1.1e3, false), (1e-7, 1.1e3, true)]
+        {
+            assert_eq!(some_bounds(5.0, beta).is_sharp(omega), sharp, "{beta} {omega}");
+        }
     }
 
     /// At the radius (3) and (4) hold with equality, or (4) does for the mesh's highest frequency.

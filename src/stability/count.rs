@@ -13,6 +13,7 @@ use super::axis::Axis;
 use super::bounds::Bounds;
 use super::characteristic::Characteristic;
 use crate::mechanics::Vibration;
+use crate::stability::Spectra;
 
 type C64 = Complex<f64>;
 
@@ -23,51 +24,101 @@ const LARGEST_ERROR: f64 = 0.34;
 /// First steps along the arc; those along the axis are so long that this many frequencies are expected in one.
 const FIRST_STEPS: u32 = 8;
 const LARGEST_STEP: f64 = 1.4;
-/// Evaluations after which the count is given up.
-const LARGEST_EFFORT: usize = 20_000;
-/// Halvings of a step: an eigenvalue is then on the axis but for rounding.
-const HALVINGS: u32 = 40;
+/// Where a step is divided to see whether its parts agree: nowhere in particular, so that evenly spaced eigenvalues cannot
+/// look alike from both ends of both parts.
+const INSIDE: f64 = 0.43;
+/// Evaluations per mode after which the count is given up, and so many at least: a mode near the axis takes some ten, one
+/// that is on it but for rounding 160.
+const EFFORT_EACH: usize = 60;
+const LEAST_EFFORT: usize = 20_000;
+/// Divisions of a step: an eigenvalue is then on the axis but for rounding.
+const HALVINGS: u32 = 50;
 /// The turns add up to an integer but for rounding.
 const ROUNDING: f64 = 1e-3;
 
 /// How many eigenvalues have a positive real part at `speed` (m/s), multiplicity included; `None` where it cannot be
 /// told: one of them is on the axis, the effort would be too great, or the bounds do not hold.
+///
+/// By the argument principle, and where the mesh's fastest modes may be unstable by all eigenvalues.
 pub fn unstable_eigenvalues(vibration: &Vibration, speed: f64) -> Option<usize> {
     let bounds = Bounds::new(vibration)?;
-    let function = Characteristic::new(vibration);
-    let distinct = count(&mut Axis::new(&function), &bounds, speed)?;
+    let axis = Axis::new(Characteristic::new(vibration));
+    let distinct = Counter::new(bounds, axis).count(vibration, speed).filter(|count| count.certain)?.unstable;
     Some(if vibration.isotropic { 2 * distinct } else { distinct })
 }
 
-/// The same of one direction where the problem is isotropic.
-pub(super) fn count(axis: &mut Axis, bounds: &Bounds, speed: f64) -> Option<usize> {
-    let radius = bounds.largest_unstable(speed);
-    let mut path = Path { axis, speed, evaluations: 0 };
-    let steps = (radius * bounds.frequency_density() / LARGEST_STEP).ceil().max(1.0);
-    if steps.is_nan() || steps > LARGEST_EFFORT as f64 {
-        return None;
+/// What a count has found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Count {
+    /// How many eigenvalues are unstable.
+    pub unstable: usize,
+    /// About the frequency (rad/s) of the eigenvalue nearest to the axis, or of the rightmost one.
+    pub nearest: f64,
+    /// Whether rounding has no part in it: no eigenvalue is on the axis but for that.
+    pub certain: bool,
+}
+
+/// Counts the unstable eigenvalues of one problem, those of one direction where it is isotropic.
+#[derive(Debug)]
+pub(super) struct Counter {
+    pub bounds: Bounds,
+    pub axis: Axis,
+    /// All eigenvalues, once they are needed.
+    spectra: Option<Spectra>,
+}
+
+impl Counter {
+    pub(super) fn new(bounds: Bounds, axis: Axis) -> Self {
+        Self { bounds, axis, spectra: None }
     }
-    let mut axis = 0.0;
-    let mut before = path.at(C64::new(0.0, 0.0));
-    let mut step = 0.0;
-    while step < steps {
-        step += 1.0;
-        let next = path.at(C64::new(0.0, radius * step / steps));
-        axis += path.turn(before, next, HALVINGS)?;
+
+    /// The count at a speed (m/s) of the same `vibration`; `None` where it cannot be told.
+    pub(super) fn count(&mut self, vibration: &Vibration, speed: f64) -> Option<Count> {
+        let radius = self.bounds.largest_unstable(speed);
+        if !self.bounds.is_sharp(radius) {
+            return by_argument(&mut self.axis, &self.bounds, speed, radius);
+        }
+        // All modes of the mesh may be near the axis, at distances far below those between them: that many turns of D are
+        // not followed safely. But there are only so many eigenvalues.
+        let spectra = match &mut self.spectra {
+            Some(spectra) => spectra,
+            none => none.insert(Spectra::new(vibration).ok()?),
+        };
+        let spectrum = spectra.spectrum(vibration, speed).ok()?;
+        let all = || spectrum.modes().map(|mode| mode.eigenvalue);
+        let unstable = all().filter(|l| l.re > 0.0).map(|l| if l.im > 0.0 { 2 } else { 1 }).sum();
+        let certain = all().all(|l| l.re.abs() > spectrum.rounding(l));
+        Some(Count { unstable, nearest: spectrum.rightmost().im, certain })
+    }
+}
+
+/// The count by the argument principle, nothing beyond `radius` (1/s) being unstable.
+fn by_argument(axis: &mut Axis, bounds: &Bounds, speed: f64, radius: f64) -> Option<Count> {
+    let effort = LEAST_EFFORT.max(EFFORT_EACH * bounds.modes());
+    let mut path = Path { axis, speed, evaluations: 0, effort, nearest: [f64::INFINITY, 0.0] };
+    let (mut before, mut omega, mut along_axis) = (path.at(C64::new(0.0, 0.0)), 0.0, 0.0);
+    while omega < radius {
+        omega = radius.min(omega + bounds.frequency_step(omega, [LARGEST_STEP; 2]));
+        if path.evaluations > path.effort {
+            return None;
+        }
+        let next = path.at(C64::new(0.0, omega));
+        along_axis += path.turn(before, next, HALVINGS)?;
         before = next;
     }
+    let nearest = path.nearest[1];
     let mut arc = 0.0;
     for step in (0..FIRST_STEPS).rev() {
         let next = path.at(C64::from_polar(radius, FRAC_PI_2 * f64::from(step) / f64::from(FIRST_STEPS)));
         arc -= path.turn(before, next, HALVINGS)?;
         before = next;
     }
-    let turns = (arc - axis) / PI;
+    let turns = (arc - along_axis) / PI;
     let whole = turns.round();
     // Zero or more, and far below 2^32: each has been met on the way.
-    let sound = (turns - whole).abs() < ROUNDING && (0.0..LARGEST_EFFORT as f64).contains(&whole);
+    let sound = (turns - whole).abs() < ROUNDING && (0.0..path.effort as f64).contains(&whole);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number, as just seen")]
-    sound.then_some(whole as usize)
+    sound.then_some(Count { unstable: whole as usize, nearest, certain: true })
 }
 
 /// ln D and its derivative at a point of the path.
@@ -78,34 +129,49 @@ struct Point {
     slope: C64,
 }
 
-struct Path<'a, 'f> {
-    axis: &'a mut Axis<'f>,
+struct Path<'a> {
+    axis: &'a mut Axis,
     speed: f64,
     evaluations: usize,
+    /// Evaluations after which the count is given up.
+    effort: usize,
+    /// The shortest Newton step (1/s) so far, and from which Im λ: so far away is an eigenvalue, about.
+    nearest: [f64; 2],
 }
 
-impl Path<'_, '_> {
+impl Path<'_> {
     fn at(&mut self, lambda: C64) -> Point {
         self.evaluations += 1;
         let value = self.axis.at(lambda, self.speed);
+        let distance = 1.0 / value.by_lambda.norm_sqr().sqrt();
+        if distance < self.nearest[0] {
+            self.nearest = [distance, lambda.im];
+        }
         Point { lambda, log: value.log, slope: value.by_lambda }
     }
 
-    /// The change of arg D along the chord between two points.
+    /// The change of arg D along the chord between two points, once both parts of it agree with the whole.
     fn turn(&mut self, from: Point, to: Point, halvings: u32) -> Option<f64> {
-        let along = to.lambda - from.lambda;
-        let (before, after) = (from.slope * along, to.slope * along);
-        let difference = to.log - from.log;
-        if change(difference, before, after) <= 1.0 {
-            let expected = 0.5 * (before.im + after.im);
-            return Some(difference.im - ((difference.im - expected) / TAU).round() * TAU);
-        }
-        if halvings == 0 || self.evaluations > LARGEST_EFFORT {
+        let free = simple_turn(from, to);
+        if halvings == 0 || self.evaluations > self.effort {
             return None;
         }
-        let middle = self.at((from.lambda + to.lambda) * 0.5);
+        let middle = self.at(from.lambda + (to.lambda - from.lambda) * INSIDE);
+        if let (Some(_), Some(before), Some(after)) = (free, simple_turn(from, middle), simple_turn(middle, to)) {
+            return Some(before + after);
+        }
         Some(self.turn(from, middle, halvings - 1)? + self.turn(middle, to, halvings - 1)?)
     }
+}
+
+/// The change of arg D along a chord that passes for free of zeros.
+fn simple_turn(from: Point, to: Point) -> Option<f64> {
+    let along = to.lambda - from.lambda;
+    let (before, after) = (from.slope * along, to.slope * along);
+    let difference = to.log - from.log;
+    let expected = 0.5 * (before.im + after.im);
+    let turns = ((difference.im - expected) / TAU).round();
+    (change(difference, before, after) <= 1.0).then_some(difference.im - turns * TAU)
 }
 
 /// How far a step is from being free of zeros, from the change of ln D along it (up to turns) and its derivatives at

@@ -1,7 +1,8 @@
 //! The critical speed: the smallest speed at which an eigenvalue's real part becomes positive.
 //!
 //! The growth rate against speed is not monotone, so the *first* crossing is wanted. The structured search finds it
-//! without a scan. Where that leaves doubt, and without damping, the speed is raised in steps to
+//! without a scan; without damping it asks first whether the modes at rest grow with the speed. Where that leaves doubt
+//! the speed is raised in steps to
 //! the first unstable one, as in the paper, and the crossing before it is then refined. A crossing and its return
 //! within one step are not seen; docs/theory.md section 8 says so.
 
@@ -10,7 +11,8 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 
 use crate::mechanics::Vibration;
-use crate::stability::crossing::{Search, first_crossing};
+use crate::stability::crossing::{FirstCrossing, Search};
+use crate::stability::rest::{AtRest, FromRest};
 use crate::stability::{Doubt, Eigenproblem, NotConverged, Polarisation, Spectra, Spectrum, mode};
 
 /// The paper's step of the speed, in m/s.
@@ -21,6 +23,8 @@ const REFINED_TO: f64 = 1e-9;
 const ROUNDING: f64 = 1e-10;
 /// So far from a crossing, in m/s, the growth rate must be larger than its rounding.
 const CERTAIN: f64 = 1e-3;
+/// Without damping, the search begins at this speed in m/s where all modes decay from rest on.
+const ABOVE_REST: f64 = 1e-3;
 /// Without damping, the fraction of a step at which the growing mode is looked at in place of v = 0.
 const NEAR_ZERO: f64 = 1e-3;
 
@@ -125,12 +129,22 @@ impl ScanSolver {
 pub struct CriticalSearch {
     limit: f64,
     method: Method,
+    stage: Stage,
     /// Why there is a scan.
     doubt: Option<Doubt>,
-    /// The eigenvalues for the scan, once it has begun.
-    solver: Option<ScanSolver>,
     steps: u64,
     samples: Vec<Sample>,
+}
+
+/// What a search does next.
+#[derive(Debug)]
+enum Stage {
+    Begin,
+    /// Without damping, by structure: whether the modes at rest grow.
+    Rest(FromRest),
+    /// By structure: strips of speeds.
+    Crossing(Box<FirstCrossing>),
+    Scan(ScanSolver),
 }
 
 impl CriticalSearch {
@@ -142,10 +156,10 @@ impl CriticalSearch {
     /// The same by `method`.
     pub fn by(method: Method, limit: f64) -> Self {
         let limit = if limit > 0.0 { limit } else { 0.0 };
-        Self { limit, method, doubt: None, solver: None, steps: 0, samples: Vec::new() }
+        Self { limit, method, stage: Stage::Begin, doubt: None, steps: 0, samples: Vec::new() }
     }
 
-    /// The speeds the dense scan has looked at so far, in rising order; none where the structured search has answered.
+    /// The speeds the scan has looked at so far, in rising order; none where the structured search has answered.
     pub fn samples(&self) -> &[Sample] {
         &self.samples
     }
@@ -157,7 +171,11 @@ impl CriticalSearch {
 
     /// The speed up to which the search has come, in m/s.
     pub fn searched_up_to(&self) -> f64 {
-        self.samples.last().map_or(0.0, |sample| sample.speed)
+        match &self.stage {
+            Stage::Begin | Stage::Rest(_) => 0.0,
+            Stage::Crossing(search) => search.searched_up_to(),
+            Stage::Scan(_) => self.samples.last().map_or(0.0, |sample| sample.speed),
+        }
     }
 
     /// Runs to the end.
@@ -172,24 +190,72 @@ impl CriticalSearch {
         }
     }
 
-    /// Searches by structure, all at once, or looks at the scan's next speed, of the same `vibration`; `None` while the
-    /// search goes on.
+    /// Searches the next strip of speeds by structure, or looks at the scan's next speed, of the same `vibration`; `None`
+    /// while the search goes on.
     ///
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
     pub fn advance(&mut self, vibration: &Vibration) -> Result<Option<Outcome>, NotConverged> {
-        let solver = match &mut self.solver {
-            Some(solver) => solver,
-            none => {
-                if self.method == Method::Structured {
-                    match structured(vibration, self.limit) {
-                        Ok(outcome) => return Ok(Some(outcome)),
-                        Err(doubt) => self.doubt = Some(doubt),
-                    }
-                }
-                none.insert(ScanSolver::new(self.method, vibration)?)
+        if matches!(self.stage, Stage::Begin) && self.method == Method::Dense {
+            self.stage = Stage::Scan(ScanSolver::new(Method::Dense, vibration)?);
+        }
+        if let Stage::Scan(_) = self.stage {
+            return self.scan(vibration);
+        }
+        match self.by_structure(vibration) {
+            Ok(outcome) => Ok(outcome),
+            Err(doubt) => {
+                self.doubt = Some(doubt);
+                self.stage = Stage::Scan(ScanSolver::new(Method::Structured, vibration)?);
+                Ok(None)
             }
-        };
+        }
+    }
+
+    /// The next step of the search by structure.
+    fn by_structure(&mut self, vibration: &Vibration) -> Result<Option<Outcome>, Doubt> {
+        let limit = self.limit;
+        if limit == 0.0 {
+            return Ok(Some(Outcome::NoneUpTo(limit)));
+        }
+        match &mut self.stage {
+            Stage::Begin if is_undamped(vibration) => {
+                self.stage = Stage::Rest(FromRest::new(vibration).map_err(|NotConverged| Doubt::Undamped)?);
+                Ok(None)
+            }
+            Stage::Begin => {
+                self.stage = Stage::Crossing(Box::new(FirstCrossing::new(vibration, 0.0, limit)?));
+                Ok(None)
+            }
+            Stage::Rest(modes) => match modes.advance(vibration) {
+                None => Ok(None),
+                Some(AtRest::Grows(critical)) => Ok(Some(Outcome::Found(critical))),
+                Some(AtRest::Neutral) => Err(Doubt::Undamped),
+                Some(AtRest::Decays) => {
+                    let mut search = FirstCrossing::new(vibration, ABOVE_REST, limit)?;
+                    if !search.begins_stable(vibration) {
+                        return Err(Doubt::Undamped);
+                    }
+                    self.stage = Stage::Crossing(Box::new(search));
+                    Ok(None)
+                }
+            },
+            Stage::Crossing(search) => Ok(search.advance(vibration)?.map(|found| match found {
+                Search::NoneUpTo => Outcome::NoneUpTo(limit),
+                Search::Crossing { omega, speed } => {
+                    let eigenvalue = Complex::new(0.0, omega);
+                    let mode = mode(vibration, speed, eigenvalue, Polarisation::default());
+                    let kind = if omega > 0.0 { Kind::Flutter } else { Kind::Divergence };
+                    Outcome::Found(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() })
+                }
+            })),
+            Stage::Scan(_) => Ok(None),
+        }
+    }
+
+    /// Looks at the scan's next speed.
+    fn scan(&mut self, vibration: &Vibration) -> Result<Option<Outcome>, NotConverged> {
+        let Stage::Scan(solver) = &mut self.stage else { return Ok(None) };
         let scale = solver.scale();
         let mut spectrum = |speed: f64| solver.spectrum(vibration, speed);
         let speed = (self.steps as f64 * SCAN_STEP).min(self.limit);
@@ -254,18 +320,12 @@ impl CriticalSearch {
 /// # Errors
 /// [`Doubt`] where a scan must decide.
 pub fn structured(vibration: &Vibration, limit: f64) -> Result<Outcome, Doubt> {
-    if is_undamped(vibration) {
-        return Err(Doubt::Undamped);
-    }
-    Ok(match first_crossing(vibration, limit)? {
-        Search::NoneUpTo => Outcome::NoneUpTo(limit),
-        Search::Crossing { omega, speed } => {
-            let eigenvalue = Complex::new(0.0, omega);
-            let mode = mode(vibration, speed, eigenvalue, Polarisation::default());
-            let kind = if omega > 0.0 { Kind::Flutter } else { Kind::Divergence };
-            Outcome::Found(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() })
+    let mut search = CriticalSearch::new(limit);
+    loop {
+        if let Some(outcome) = search.by_structure(vibration)? {
+            return Ok(outcome);
         }
-    })
+    }
 }
 
 /// Whether the growth rate may be rounding.
@@ -299,7 +359,7 @@ fn refine(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Damping, Motion, Robot, RobotSpec, paper_spec};
+    use crate::robot::{Damping, Linearisation, Motion, Robot, RobotSpec, paper_spec};
     use crate::study::Local;
 
     /// Also by the scan, which undamped robots are left to.
@@ -334,13 +394,23 @@ mod tests {
         assert_eq!(scan.doubt(), None);
         let growth: Vec<f64> = scan.samples().iter().map(|sample| sample.growth_rate).collect();
         assert!(growth.len() == 4 && growth.iter().all(|&rate| rate < 0.0), "{growth:?}");
-        // The search by structure answers at once.
-        let mut structured = CriticalSearch::new(5.0);
-        assert_eq!(structured.advance(&damped.vibration), Ok(Some(Outcome::NoneUpTo(5.0))));
+        // The search by structure goes on in strips and samples nothing.
+        let mut structured = CriticalSearch::new(40.0);
+        let mut reached = vec![structured.searched_up_to()];
+        let critical = loop {
+            match structured.advance(&damped.vibration).unwrap() {
+                None => reached.push(structured.searched_up_to()),
+                Some(Outcome::Found(critical)) => break critical,
+                Some(Outcome::NoneUpTo(_)) => panic!("no critical speed"),
+            }
+        };
         assert_eq!((structured.samples(), structured.doubt()), (&[][..], None));
+        assert!(reached.len() > 4 && reached.is_sorted() && reached.iter().all(|&v| v < critical.speed), "{reached:?}");
         let undamped = local(Damping { alpha: 0.0, beta: 0.0 });
         let mut left_to_the_scan = CriticalSearch::new(5.0);
-        assert_eq!(left_to_the_scan.advance(&undamped.vibration), Ok(None));
+        while left_to_the_scan.doubt().is_none() {
+            assert_eq!(left_to_the_scan.advance(&undamped.vibration), Ok(None));
+        }
         assert_eq!(left_to_the_scan.doubt(), Some(Doubt::Undamped));
     }
 
@@ -359,21 +429,52 @@ mod tests {
         }
     }
 
-    /// One kind of damping is enough for the search by structure; both methods tell the same kind.
+    /// With any damping there is no scan, nor without where the modes at rest grow or decay; both methods tell the same.
+    ///
+    /// The paper's robot is its own mirror image at x = 0, and its cables change places when it turns round: backwards
+    /// eigenvalues are the negative ones, so that moving along x without damping they stay on the axis until two meet.
     #[test]
-    fn only_robots_without_any_damping_are_left_to_the_scan() {
-        for [alpha, beta] in [[0.0, 0.0], [0.1, 0.0], [0.0, 0.002], [0.1, 0.002]] {
+    fn only_symmetric_robots_without_any_damping_are_left_to_the_scan() {
+        for (alpha, beta, x, scan) in [
+            (0.0, 0.0, 0.0, true),
+            (0.0, 0.0, 0.5, false),
+            (0.1, 0.0, 0.0, false),
+            (0.0, 0.002, 0.0, false),
+            (0.1, 0.002, 0.0, false),
+        ] {
             let robot = Robot::new(RobotSpec { damping: Damping { alpha, beta }, ..paper_spec() }).unwrap();
-            let local = Local::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+            let local = Local::new(&robot, &Motion::new([x, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
             let structured = structured(&local.vibration, 15.0);
-            assert_eq!(structured == Err(Doubt::Undamped), alpha == 0.0 && beta == 0.0, "{structured:?}");
-            if alpha + beta > 0.0 {
-                assert!(matches!(structured, Ok(Outcome::Found(_))), "{structured:?}");
-            }
+            assert_eq!(structured == Err(Doubt::Undamped), scan, "{structured:?}");
             let dense = CriticalSearch::by(Method::Dense, 15.0).run(&local.vibration).unwrap();
-            if let (Ok(Outcome::Found(a)), Outcome::Found(b)) = (structured, dense) {
+            if let (Ok(structured), Outcome::Found(b)) = (structured, dense) {
+                let Outcome::Found(a) = structured else { panic!("{structured:?}") };
                 assert!((a.speed - b.speed).abs() < 1e-6, "{a:?} {b:?}");
-                assert_eq!((a.kind, a.cable, b.kind), (Kind::Flutter, b.cable, Kind::Flutter));
+                assert_eq!((a.kind, b.kind), (Kind::Flutter, Kind::Flutter));
+                assert!(a.speed == 0.0 || a.cable == b.cable, "{a:?} {b:?}");
+            }
+        }
+    }
+
+    /// What the modes at rest say is what all eigenvalues do a little above rest.
+    #[test]
+    fn without_damping_growth_from_rest_on_decides() {
+        let damping = Damping { alpha: 0.0, beta: 0.0 };
+        for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
+            for (at, towards) in [([2.0, 0.5], [1.0, 0.0]), ([-3.0, 1.0], [0.3, 1.0]), ([0.0, 0.0], [0.0, 1.0])] {
+                let robot = Robot::new(RobotSpec { damping, linearisation, elements: 5, ..paper_spec() }).unwrap();
+                let local = Local::new(&robot, &Motion::new(at, towards, 5.0).unwrap()).unwrap();
+                let Ok(Outcome::Found(critical)) = structured(&local.vibration, 15.0) else { panic!("no growth") };
+                assert_eq!((critical.speed, critical.eigenvalue.re), (0.0, 0.0));
+                // The fastest growth, and in the mode that is named.
+                let speed = 1e-3;
+                let spectrum = Eigenproblem::new(&local.vibration).unwrap().spectrum(speed).unwrap();
+                let named = spectrum.eigenvalues().min_by(|a, b| {
+                    let distance = |l: &Complex<f64>| (l - critical.eigenvalue).norm();
+                    distance(a).total_cmp(&distance(b))
+                });
+                let (growth, named) = (spectrum.growth_rate(), named.unwrap().re);
+                assert!(growth > 0.0 && named > 0.9 * growth, "{growth:e}, {named:e} of the mode named");
             }
         }
     }

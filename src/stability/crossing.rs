@@ -12,24 +12,27 @@ use nalgebra::Complex;
 
 use super::axis::Axis;
 use super::bounds::Bounds;
-use super::characteristic::Characteristic;
-use super::count::{change, count};
+use super::characteristic::{Characteristic, LogDeterminant};
+use super::count::{Count, Counter, change};
 use crate::mechanics::Vibration;
 
 type C64 = Complex<f64>;
 
-/// A cell is so wide that it is expected to hold this many of all cables' frequencies, and at most so high that one
-/// cable's move by this part of their spacing: no turn of the phase, which takes two, is overlooked between its corners.
-const LARGEST_WIDTH: f64 = 1.4;
+/// A cell is so wide that it is expected to hold this many of all cables' frequencies, fewer where the mesh tells how many
+/// there are, and at most so high that one cable's move by this part of their spacing: no turn of the phase, which takes
+/// two, is overlooked between its corners.
+const LARGEST_WIDTH: [f64; 2] = [1.4, 1.0];
 const LARGEST_MOVE: f64 = 0.35;
 /// A strip is so high, in m/s; at low speeds, where frequencies hardly move, up to twice that.
 const STRIP: f64 = 0.5;
 const LARGEST_STRIP: f64 = 1.0;
-/// Evaluations after which the dense solver is hardly slower, for all cells and for the first ones of a strip.
-const LARGEST_EFFORT: usize = 50_000;
-const LARGEST_STRIP_EFFORT: f64 = 4000.0;
+/// Evaluations per mode after which a strip is left to counting, and so many at least.
+const EFFORT_EACH: usize = 100;
+const LEAST_EFFORT: usize = 10_000;
 /// Cells smaller than this part of the first ones are in doubt.
 const SMALLEST_CELL: f64 = 1e-7;
+/// Steps to a divergence, by Newton's method or in halves.
+const BISECTIONS: u32 = 60;
 /// Newton steps to a zero.
 const NEWTON_STEPS: usize = 25;
 /// Newton's method has ended when its step is this part of a cell.
@@ -38,6 +41,15 @@ const CONVERGED: f64 = 1e-11;
 const SAME: f64 = 1e-6;
 /// This part of a strip below the answer the unstable eigenvalues are counted: none.
 const BELOW: f64 = 1e-3;
+/// Where the plane leaves doubt the unstable eigenvalues are counted so often, in m/s.
+const COUNT_STEP: f64 = 0.1;
+/// A crossing is had from counts to this part of its speed, or of 1 m/s.
+const COUNTED_TO: f64 = 1e-11;
+/// Where a count meets an eigenvalue on the axis, it is made so much lower, in m/s; so often.
+const ASIDE: f64 = 1e-4;
+const TRIES: u32 = 8;
+/// Newton's method moves a crossing that was had from counts by no more than this, in m/s.
+const POLISHED: f64 = 1e-6;
 
 /// How the search ended where it could tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,73 +63,96 @@ pub(super) enum Search {
 /// Why the structured search left the critical speed to a scan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Doubt {
-    /// There is no damping, so that eigenvalues are on the axis at rest.
+    /// There is no damping, and to first order in the speed some mode neither grows nor decays.
     Undamped,
     /// The bounds of what can cross do not hold, or leave the range of floating point.
     Unbounded,
-    /// Crossings are possible up to frequencies so high that the scan is hardly slower.
-    Band,
-    /// The search has taken so many evaluations that the scan is hardly slower.
-    Effort,
-    /// A cell became too small: crossings that coincide, or nearly.
-    Coincident,
-    /// The first crossing found leads to the left, so that one before it is missing.
-    Leftward,
-    /// A crossing was found below a speed that had been taken for free of them.
-    Overlooked,
-    /// What is unstable below the answer is not zero, or cannot be counted.
+    /// The unstable eigenvalues at a speed cannot be counted.
     Count,
 }
 
-/// The first crossing at speeds up to `limit` (m/s), of a damped problem: one that is stable at rest.
-///
-/// # Errors
-/// [`Doubt`] where it cannot be told.
-pub(super) fn first_crossing(vibration: &Vibration, limit: f64) -> Result<Search, Doubt> {
-    let bounds = Bounds::new(vibration).ok_or(Doubt::Unbounded)?;
-    let function = Characteristic::new(vibration);
-    let mut plane = Plane {
-        axis: Axis::new(&function),
-        bounds: &bounds,
-        known: HashMap::new(),
-        trend: Trend::default(),
-        zeros: Vec::new(),
-        evaluations: 0,
-        eligible: 0.0,
-        cell: [LARGEST_WIDTH / bounds.frequency_density(), STRIP],
-    };
-    let mut from = bounds.lowest_speed(limit);
-    while from < limit {
-        let top = bounds.highest_frequency(from + STRIP);
-        let height = (LARGEST_MOVE * bounds.speed_step(top, from)).clamp(STRIP, LARGEST_STRIP);
-        let to = limit.min(from + height);
-        let top = bounds.highest_frequency(to);
-        let columns = (top / plane.cell[0]).ceil().max(1.0);
-        if columns.is_nan() || columns > LARGEST_STRIP_EFFORT {
-            return Err(Doubt::Band);
-        }
-        plane.cell[1] = to - from;
-        plane.follow_trend(from, to, top);
-        plane.eligible = bounds.highest_frequency(from);
-        plane.search(from, to, top)?;
-        if let Some(zero) = plane.first_from(from).copied().filter(|zero| zero.speed <= to) {
-            // What crosses first crosses to the right: d Re λ/dv = Im b. Below it nothing is unstable.
-            let below = (zero.speed - BELOW * STRIP).max(0.5 * zero.speed);
-            let rightward = zero.slope.im > 0.0;
-            if !rightward {
-                return Err(Doubt::Leftward);
-            }
-            let stable = count(&mut plane.axis, &bounds, below) == Some(0);
-            let crossing = Search::Crossing { omega: zero.omega, speed: zero.speed };
-            return if stable { Ok(crossing) } else { Err(Doubt::Count) };
-        }
-        let missed = |zero: &Zero| zero.speed > 0.0 && zero.speed < from;
-        if plane.zeros.iter().any(missed) {
-            return Err(Doubt::Overlooked);
-        }
-        from = to;
+/// What the plane does not tell of a strip: a cell has become too small, as where crossings coincide, or the effort too
+/// large.
+struct Unsettled;
+
+/// The search for the first crossing, strip by strip.
+#[derive(Debug)]
+pub(super) struct FirstCrossing {
+    plane: Plane,
+    /// Nothing is unstable up to here, in m/s.
+    from: f64,
+    /// Where the search has begun.
+    start: f64,
+    limit: f64,
+}
+
+impl FirstCrossing {
+    /// A search of a problem that is stable up to the speed `start`, and on to `limit` (m/s).
+    ///
+    /// # Errors
+    /// [`Doubt::Unbounded`].
+    pub(super) fn new(vibration: &Vibration, start: f64, limit: f64) -> Result<Self, Doubt> {
+        let bounds = Bounds::new(vibration).ok_or(Doubt::Unbounded)?;
+        let start = bounds.lowest_speed(limit).max(start).min(limit);
+        let plane = Plane {
+            known: HashMap::new(),
+            trend: Trend::default(),
+            zeros: Vec::new(),
+            evaluations: 0,
+            eligible: 0.0,
+            cell: [bounds.frequency_step(0.0, LARGEST_WIDTH), STRIP],
+            counter: Counter::new(bounds, Axis::new(Characteristic::new(vibration))),
+        };
+        Ok(Self { plane, from: start, start, limit })
     }
-    if count(&mut plane.axis, &bounds, limit) == Some(0) { Ok(Search::NoneUpTo) } else { Err(Doubt::Count) }
+
+    /// Whether nothing is unstable where the search begins.
+    pub(super) fn begins_stable(&mut self, vibration: &Vibration) -> bool {
+        self.plane.counter.count(vibration, self.start).is_some_and(|count| count.certain && count.unstable == 0)
+    }
+
+    /// The speed (m/s) up to which nothing crosses.
+    pub(super) fn searched_up_to(&self) -> f64 {
+        self.from
+    }
+
+    /// Searches the next strip; `None` where nothing crosses in it.
+    ///
+    /// # Errors
+    /// [`Doubt`] where that cannot be told.
+    pub(super) fn advance(&mut self, vibration: &Vibration) -> Result<Option<Search>, Doubt> {
+        let (plane, from, limit) = (&mut self.plane, self.from, self.limit);
+        if from >= limit {
+            return Ok(Some(match plane.counter.count(vibration, limit) {
+                Some(Count { unstable: 0, certain: true, .. }) => Search::NoneUpTo,
+                _ => plane.by_counting(vibration, self.start, limit)?.unwrap_or(Search::NoneUpTo),
+            }));
+        }
+        let top = plane.counter.bounds.highest_frequency(from + STRIP);
+        let height = (LARGEST_MOVE * plane.counter.bounds.speed_step(top, from)).clamp(STRIP, LARGEST_STRIP);
+        let to = limit.min(from + height);
+        let searched = plane.search_strip(from, to);
+        let first = plane.first_from(from).copied().filter(|zero| zero.speed <= to);
+        let missed = plane.zeros.iter().any(|zero| zero.speed > 0.0 && zero.speed < from);
+        let found = match (searched, first) {
+            (Ok(()), Some(zero)) => {
+                // What crosses first crosses to the right: d Re λ/dv = Im b. Below it nothing is unstable.
+                let below = (zero.speed - BELOW * STRIP).max(0.5 * zero.speed);
+                let stable =
+                    plane.counter.count(vibration, below).is_some_and(|count| count.certain && count.unstable == 0);
+                if zero.slope.im > 0.0 && stable {
+                    Some(Search::Crossing { omega: zero.omega, speed: zero.speed })
+                } else {
+                    plane.by_counting(vibration, self.start, to)?
+                }
+            }
+            (Ok(()), None) if !missed => None,
+            (Ok(()), None) => plane.by_counting(vibration, self.start, to)?,
+            (Err(Unsettled), _) => plane.by_counting(vibration, from, to)?,
+        };
+        self.from = to;
+        Ok(found)
+    }
 }
 
 /// det Q(iω, v) at one point of the plane, with the strip's trend and zeros divided out.
@@ -188,9 +223,9 @@ impl Trend {
 }
 
 /// The plane of ω and v with what has been found in it.
-struct Plane<'a> {
-    axis: Axis<'a>,
-    bounds: &'a Bounds,
+#[derive(Debug)]
+struct Plane {
+    counter: Counter,
     /// The corners of the strip, which neighbouring cells share, by the bits of ω and v.
     known: HashMap<[u64; 2], Corner>,
     trend: Trend,
@@ -202,7 +237,7 @@ struct Plane<'a> {
     cell: [f64; 2],
 }
 
-impl Plane<'_> {
+impl Plane {
     /// The first of the zeros from a speed on.
     fn first_from(&self, from: f64) -> Option<&Zero> {
         let from = from - SAME * self.cell[1];
@@ -210,11 +245,18 @@ impl Plane<'_> {
     }
 
     /// Finds all zeros below the first one between two speeds.
-    fn search(&mut self, from: f64, to: f64, top: f64) -> Result<(), Doubt> {
+    fn search_strip(&mut self, from: f64, to: f64) -> Result<(), Unsettled> {
+        self.evaluations = 0;
+        self.cell[1] = to - from;
+        self.follow_trend(from, to, self.counter.bounds.highest_frequency(to));
+        self.take_divergence(from, to);
+        let first = self.first_from(from).map_or(to, |zero| zero.speed.min(to));
+        let top = self.counter.bounds.highest_frequency(first);
+        self.eligible = self.counter.bounds.highest_frequency(from);
         let mut left = [self.corner(0.0, from), self.corner(0.0, to)];
         let mut omega = 0.0;
         while omega < top {
-            omega += self.cell[0].max(self.bounds.decay(omega));
+            omega += self.counter.bounds.frequency_step(omega, LARGEST_WIDTH).max(self.counter.bounds.decay(omega));
             let right = [self.corner(omega, from), self.corner(omega, to)];
             self.search_cell(from, &mut Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] })?;
             left = right;
@@ -222,8 +264,107 @@ impl Plane<'_> {
         Ok(())
     }
 
+    /// Takes a divergence between two speeds in that shows by the sign of det (K + v² D), so that nothing above it has to
+    /// be searched: at λ = 0 neither damping nor C have a part in Q, and D is real.
+    fn take_divergence(&mut self, from: f64, to: f64) {
+        let negative = |value: LogDeterminant| value.log.im.cos() < 0.0;
+        let [before, after] = [from, to].map(|speed| self.counter.axis.at(C64::new(0.0, 0.0), speed));
+        if !(before.log.im.is_finite() && after.log.im.is_finite()) || negative(before) == negative(after) {
+            return;
+        }
+        let (mut low, mut high, mut speed) = (from, to, 0.5 * (from + to));
+        for _ in 0..BISECTIONS {
+            let here = self.counter.axis.at(C64::new(0.0, 0.0), speed);
+            *(if negative(here) == negative(before) { &mut low } else { &mut high }) = speed;
+            let newton = speed - 1.0 / here.by_speed.re;
+            let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - speed).abs() <= CONVERGED * self.cell[1] {
+                break;
+            }
+            speed = next;
+        }
+        if let Some(zero) = self.zero_at(0.0, speed) {
+            self.zeros.push(zero);
+        }
+    }
+
+    /// What is unstable at a speed, or a little below it where an eigenvalue is on the axis; with the speed.
+    fn count_near(&mut self, vibration: &Vibration, speed: f64) -> Result<(f64, Count), Doubt> {
+        let mut speeds = (0..TRIES).map(|k| speed - ASIDE * f64::from(k));
+        let mut certain = |speed: f64| self.counter.count(vibration, speed).filter(|count| count.certain);
+        speeds.find_map(|speed| Some((speed, certain(speed)?))).ok_or(Doubt::Count)
+    }
+
+    /// The first crossing between two speeds by counting what is unstable on the way; nothing is at the first one.
+    ///
+    /// Cells get very small where many eigenvalues cross nearly together. A count does not, as long as it is not made
+    /// where they cross. What becomes unstable and stable again between two counts is not seen, unless the plane has
+    /// shown it.
+    fn by_counting(&mut self, vibration: &Vibration, from: f64, to: f64) -> Result<Option<Search>, Doubt> {
+        let beyond = self.zeros.iter().map(|zero| zero.speed + BELOW * STRIP);
+        let mut speeds: Vec<f64> = beyond.filter(|speed| (from..to).contains(speed)).collect();
+        let steps = ((to - from) / COUNT_STEP).ceil().max(1.0);
+        let mut step = 1.0;
+        while step <= steps {
+            speeds.push(from + (to - from) * step / steps);
+            step += 1.0;
+        }
+        speeds.sort_by(f64::total_cmp);
+        // The next strip begins anew.
+        self.zeros.clear();
+        self.known.clear();
+        let mut stable = from;
+        for speed in speeds {
+            let (speed, Count { unstable, nearest, .. }) = self.count_near(vibration, speed)?;
+            if unstable > 0 {
+                return self.bisect(vibration, [stable, speed], nearest).map(Some);
+            }
+            stable = speed;
+        }
+        Ok(None)
+    }
+
+    /// A crossing between a speed where nothing is unstable and one where something is, near the frequency `nearest`.
+    fn bisect(
+        &mut self,
+        vibration: &Vibration,
+        [mut stable, mut unstable]: [f64; 2],
+        mut nearest: f64,
+    ) -> Result<Search, Doubt> {
+        while unstable - stable > COUNTED_TO * unstable.max(1.0) {
+            // Where it meets an eigenvalue on the axis there is no count, but beside.
+            let parts = [0.5, 0.4, 0.6].map(|part| stable + part * (unstable - stable));
+            let count = parts.into_iter().find_map(|speed| Some((speed, self.counter.count(vibration, speed)?)));
+            match count {
+                Some((speed, Count { unstable: 0, .. })) => stable = speed,
+                Some((speed, count)) => (unstable, nearest) = (speed, count.nearest),
+                None if unstable - stable < POLISHED => break,
+                None => return Err(Doubt::Count),
+            }
+        }
+        // Newton's method knows it better, where it is alone.
+        let (mut omega, mut speed) = (nearest, unstable);
+        for _ in 0..NEWTON_STEPS {
+            let Some(step) = newton_step(&self.at(omega, speed)) else { break };
+            (omega, speed) = (omega + step[0], speed + step[1]);
+            if step[0].abs() > self.cell[0] || (speed - unstable).abs() > POLISHED {
+                break;
+            }
+            if step[0].abs() <= CONVERGED * self.cell[0] && step[1].abs() <= CONVERGED {
+                return Ok(self.crossing(omega, speed));
+            }
+        }
+        Ok(self.crossing(nearest, unstable))
+    }
+
+    /// A crossing, a divergence where the frequency is zero but for rounding.
+    fn crossing(&self, omega: f64, speed: f64) -> Search {
+        let omega = omega.abs();
+        Search::Crossing { omega: if omega <= SAME * self.cell[0] { 0.0 } else { omega }, speed }
+    }
+
     /// The same in one cell of the strip.
-    fn search_cell(&mut self, from: f64, cell: &mut Cell) -> Result<(), Doubt> {
+    fn search_cell(&mut self, from: f64, cell: &mut Cell) -> Result<(), Unsettled> {
         loop {
             let after_the_first = self.first_from(from).is_some_and(|first| first.speed <= cell.lower[0].speed);
             if after_the_first || !self.is_eligible(cell) {
@@ -240,11 +381,8 @@ impl Plane<'_> {
             }
             let size = cell.size();
             let vanishing = size[0] < SMALLEST_CELL * self.cell[0] || size[1] < SMALLEST_CELL * self.cell[1];
-            if vanishing {
-                return Err(Doubt::Coincident);
-            }
-            if self.evaluations > LARGEST_EFFORT {
-                return Err(Doubt::Effort);
+            if vanishing || self.evaluations > LEAST_EFFORT.max(EFFORT_EACH * self.counter.bounds.modes()) {
+                return Err(Unsettled);
             }
             let [mut first, mut second] = self.halves(cell, changes);
             self.search_cell(from, &mut first)?;
@@ -256,7 +394,7 @@ impl Plane<'_> {
     fn at(&mut self, omega: f64, speed: f64) -> Corner {
         self.evaluations += 1;
         let i = C64::new(0.0, 1.0);
-        let value = self.axis.at(i * omega, speed);
+        let value = self.counter.axis.at(i * omega, speed);
         let [trend, slope] = self.trend.at(speed);
         let (log, by_omega, by_speed) = (value.log - trend, i * value.by_lambda, value.by_speed - slope);
         let mut corner = Corner { omega, speed, log, by_omega, by_speed, zeros: 0 };
@@ -278,7 +416,7 @@ impl Plane<'_> {
     /// Goes on to the strip between two speeds with crossings below the frequency `top`.
     fn follow_trend(&mut self, from: f64, to: f64, top: f64) {
         // To the right of the axis, further than what moves in the strip: nothing but the trend is left of it.
-        let [begin, end] = [from, to].map(|speed| self.axis.at(top.into(), speed));
+        let [begin, end] = [from, to].map(|speed| self.counter.axis.at(top.into(), speed));
         let trend = Trend::between([from, to], [begin.log.re, end.log.re], [begin.by_speed.re, end.by_speed.re]);
         let ([before, slope_before], [after, slope_after]) = (self.trend.at(from), trend.at(from));
         self.trend = trend;
@@ -319,13 +457,13 @@ impl Plane<'_> {
     /// Whether something can cross in the cell.
     fn is_eligible(&self, cell: &Cell) -> bool {
         let omega = cell.lower[0].omega;
-        omega <= self.eligible || omega <= self.bounds.highest_frequency(cell.upper[0].speed)
+        omega <= self.eligible || omega <= self.counter.bounds.highest_frequency(cell.upper[0].speed)
     }
 
     /// Whether frequencies may move so far within the cell that a turn of the phase could be overlooked.
     fn is_tall(&self, cell: &Cell) -> bool {
         let corner = &cell.upper[1];
-        cell.size()[1] > LARGEST_MOVE * self.bounds.speed_step(corner.omega, corner.speed)
+        cell.size()[1] > LARGEST_MOVE * self.counter.bounds.speed_step(corner.omega, corner.speed)
     }
 
     /// The cell in two, the lower or left one first, across the direction in which it is less clearly free.
@@ -414,16 +552,30 @@ mod tests {
         Local::new(&paper().unwrap(), &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
     }
 
-    fn plane<'a>(bounds: &'a Bounds, function: &'a Characteristic) -> Plane<'a> {
+    fn plane(local: &Local) -> Plane {
         Plane {
-            axis: Axis::new(function),
-            bounds,
+            counter: Counter::new(
+                Bounds::new(&local.vibration).unwrap(),
+                Axis::new(Characteristic::new(&local.vibration)),
+            ),
             known: HashMap::new(),
             trend: Trend::default(),
             zeros: Vec::new(),
             evaluations: 0,
             eligible: 0.0,
             cell: [1.0, 1.0],
+        }
+    }
+
+    /// The first crossing.
+    fn crossing(local: &Local) -> [f64; 2] {
+        let mut search = FirstCrossing::new(&local.vibration, 0.0, 20.0).unwrap();
+        loop {
+            match search.advance(&local.vibration).unwrap() {
+                None => {}
+                Some(Search::Crossing { omega, speed }) => return [omega, speed],
+                Some(Search::NoneUpTo) => panic!("no crossing"),
+            }
         }
     }
 
@@ -483,16 +635,15 @@ mod tests {
     #[test]
     fn a_cell_in_which_the_phase_may_turn_is_tall() {
         let local = local();
-        let (bounds, function) = (Bounds::new(&local.vibration).unwrap(), Characteristic::new(&local.vibration));
-        let mut plane = plane(&bounds, &function);
-        let height = LARGEST_MOVE * bounds.speed_step(30.0, 8.0);
+        let mut plane = plane(&local);
+        let height = LARGEST_MOVE * plane.counter.bounds.speed_step(30.0, 8.0);
         for (part, tall) in [(0.99, false), (1.01, true)] {
             let cell = cell([20.0, 30.0], [8.0 - part * height, 8.0]);
             assert_eq!(plane.is_tall(&cell), tall, "{part}");
             assert_eq!(plane.changes(&cell)[1].is_infinite(), tall, "{part}");
         }
         // What can cross at all: up to the bound at the top of the cell, or anywhere in the strip.
-        let top = bounds.highest_frequency(8.0);
+        let top = plane.counter.bounds.highest_frequency(8.0);
         for (eligible, omega, expected) in [(0.0, 0.99, true), (0.0, 1.01, false), (1.1 * top, 1.01, true)] {
             plane.eligible = eligible;
             let cell = cell([omega * top, 2.0 * top], [7.0, 8.0]);
@@ -504,11 +655,8 @@ mod tests {
     #[test]
     fn a_zero_has_the_slope_of_the_eigenvalue() {
         let local = local();
-        let (bounds, function) = (Bounds::new(&local.vibration).unwrap(), Characteristic::new(&local.vibration));
-        let mut plane = plane(&bounds, &function);
-        let Ok(Search::Crossing { omega, speed }) = first_crossing(&local.vibration, 20.0) else {
-            panic!("no crossing")
-        };
+        let mut plane = plane(&local);
+        let [omega, speed] = crossing(&local);
         let off = newton_step(&plane.at(omega, speed)).unwrap();
         assert!(off.iter().all(|part| part.abs() < 1e-10), "the crossing is off by {off:?}");
         let zero = plane.zero_at(omega, speed).unwrap();
@@ -545,8 +693,7 @@ mod tests {
     #[test]
     fn corners_follow_the_trend() {
         let local = local();
-        let (bounds, function) = (Bounds::new(&local.vibration).unwrap(), Characteristic::new(&local.vibration));
-        let mut plane = plane(&bounds, &function);
+        let mut plane = plane(&local);
         plane.follow_trend(9.0, 10.0, 30.0);
         for speed in [9.0, 10.0] {
             plane.corner(2.0, speed);
@@ -560,7 +707,7 @@ mod tests {
         }
         // The trend is what D does to the right of the axis: there the two ends of the strip differ by the phase alone.
         for speed in [10.0, 11.0] {
-            let value = plane.axis.at(25.0.into(), speed);
+            let value = plane.counter.axis.at(25.0.into(), speed);
             let [trend, slope] = plane.trend.at(speed);
             assert!((value.log.re - trend).abs() < 1e-9 * trend.abs() && (value.by_speed.re - slope).abs() < 1e-9);
         }

@@ -10,6 +10,7 @@ mod crossing;
 mod dense;
 mod jet;
 mod modes;
+mod rest;
 mod sensitivity;
 mod spectrum;
 mod undamped;

@@ -196,6 +196,17 @@ impl Referee {
     }
 }
 
+/// All speeds in m/s at which `K_el` + `K_dyn` is singular, in rising order: with an eigenvalue κ < 0 of `K_el`⁻¹ D, the
+/// speed is (−1/κ)^½. `None` where the solver has not converged.
+pub fn divergences(parts: &Parts) -> Option<Vec<f64>> {
+    let flexible = parts.elastic.clone().cholesky()?.solve(&parts.dynamic);
+    let values = eigenvalues(&flexible, None)?;
+    let real = values.iter().filter(|value| value.im == 0.0 && value.re < 0.0);
+    let mut speeds: Vec<f64> = real.map(|value| (-1.0 / value.re).sqrt()).collect();
+    speeds.sort_by(f64::total_cmp);
+    Some(speeds)
+}
+
 /// How far from `matrix`, in the Frobenius norm, the one is whose eigenvalues a backward stable solver gives: c n ε ‖A‖.
 /// The c that can be proved grows with n as well; traces of squares show at most 2.
 fn backward_error(matrix: &DMatrix<f64>) -> f64 {

@@ -1,0 +1,104 @@
+//! Without damping: what the speed does to the modes at rest, to first order.
+//!
+//! At rest every eigenvalue is λ = iω̂ with a real shape x. Where it is simple, dλ/dv = −xᵀCx/(2 xᵀMx) there, a real
+//! number: to first order in the speed a mode grows or decays. Only the symmetric part of C counts, which takes energy from
+//! cable that is paid out and gives it to cable that is reeled in. docs/theory.md section 8.
+
+use nalgebra::Complex;
+
+use crate::mechanics::{Hub, Vibration};
+use crate::stability::{Critical, Kind, Mode, NotConverged, Polarisation, Spectra, mode};
+
+/// Growth below this part of what it is the sum of is none: modes of which paying out takes what reeling in gives, or
+/// that no moving cable has a share in.
+const NONE: f64 = 1e-9;
+/// Frequencies are apart when they differ by so many times what they are known to.
+const APART: f64 = 1e3;
+/// An eigenvalue is known to this part of the largest frequency at best.
+const ROUNDING: f64 = 1e-15;
+/// Modes that are looked at in one go.
+const AT_ONCE: usize = 16;
+
+/// What the modes at rest tell.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum AtRest {
+    /// A mode grows from rest on; the one that grows fastest.
+    Grows(Critical),
+    /// All decay.
+    Decays,
+    /// None grows, but it is not known of all that they decay.
+    Neutral,
+}
+
+/// A look at all modes at rest of a problem without damping.
+#[derive(Debug)]
+pub(super) struct FromRest {
+    /// Frequencies in rad/s that are still to be looked at, those of simple eigenvalues.
+    open: Vec<f64>,
+    /// The fastest growth so far, in 1/s per m/s, and its mode.
+    fastest: Option<(f64, Critical)>,
+    decays: bool,
+}
+
+impl FromRest {
+    /// Finds the frequencies.
+    ///
+    /// # Errors
+    /// [`NotConverged`] where they cannot be had.
+    pub(super) fn new(vibration: &Vibration) -> Result<Self, NotConverged> {
+        let mut spectra = Spectra::new(vibration)?;
+        let spectrum = spectra.spectrum(vibration, 0.0)?;
+        let known = |omega: f64| spectrum.rounding(Complex::new(0.0, omega)) + ROUNDING * spectra.scale();
+        let all: Vec<f64> = spectrum.modes().map(|mode| mode.eigenvalue.im).collect();
+        let apart = |a: f64, b: f64| b - a > APART * known(b);
+        let simple = |&i: &usize| {
+            (i == 0 || apart(all[i - 1], all[i])) && all.get(i + 1).is_none_or(|&next| apart(all[i], next))
+        };
+        let open: Vec<f64> = (0..all.len()).filter(simple).map(|i| all[i]).collect();
+        let decays = open.len() == all.len();
+        Ok(Self { open, fastest: None, decays })
+    }
+
+    /// Looks at some more modes; `None` while there are others.
+    pub(super) fn advance(&mut self, vibration: &Vibration) -> Option<AtRest> {
+        for omega in self.open.split_off(self.open.len().saturating_sub(AT_ONCE)) {
+            let eigenvalue = Complex::new(0.0, omega);
+            let mode = mode(vibration, 0.0, eigenvalue, Polarisation::default());
+            let [growth, size] = growth(vibration, &mode);
+            self.decays &= growth < -NONE * size;
+            if growth > NONE * size && self.fastest.as_ref().is_none_or(|(fastest, _)| growth > *fastest) {
+                let cable = mode.responsible_cable();
+                self.fastest = Some((growth, Critical { speed: 0.0, eigenvalue, kind: Kind::Flutter, cable }));
+            }
+        }
+        if !self.open.is_empty() {
+            return None;
+        }
+        Some(match self.fastest.take() {
+            Some((_, critical)) => AtRest::Grows(critical),
+            None if self.decays => AtRest::Decays,
+            None => AtRest::Neutral,
+        })
+    }
+}
+
+/// −x* C x/(2 x* M x) in 1/s per m/s, and the size of what it is the sum of; not a number where the shape is not known.
+fn growth(vibration: &Vibration, mode: &Mode) -> [f64; 2] {
+    let (mut transfer, mut size, mut mass) = (0.0, 0.0, 0.0);
+    if let (Hub::Platform(platform), Some(nodes)) = (vibration.hub, mode.displacement.first()) {
+        mass = platform * nodes[0].norm_squared();
+    }
+    for (chain, nodes) in vibration.chains.iter().zip(&mode.displacement) {
+        for (element, pair) in chain.elements.iter().zip(nodes.windows(2)) {
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let product = pair[i].dotc(&pair[j]).re;
+                transfer += element.transfer[(i, j)] * product;
+                mass += element.mass[(i, j)] * product;
+            }
+            // The symmetric part alone: the rest is large, and nothing but rounding.
+            let own = [0, 1].map(|i| element.transfer[(i, i)].abs() * pair[i].norm_squared());
+            size += own[0] + own[1];
+        }
+    }
+    [transfer * -0.5 / mass, size * 0.5 / mass]
+}
