@@ -1,11 +1,16 @@
 //! Where everything is on the screen: side by side on a wide one, one below the other on a narrow one.
 
-use eframe::egui::{CentralPanel, Frame, Panel, Rect, ScrollArea, Ui};
+use eframe::egui::{self, CentralPanel, Frame, Panel, Rect, Ui, Vec2, containers::panel::PanelState};
 
 use super::command::Command;
 use super::menu::{self, Possible};
 use super::state::Page;
-use super::{Facts, Tautline, canvas, panels, theme};
+use super::{Facts, Tautline, canvas, gestures, panels, theme};
+
+/// The least widths of the panels on the left and on the right, in points.
+const LEAST: [f32; 2] = [340.0, 280.0];
+/// So much is left to the canvas between them, as long as they can do with less.
+const CANVAS: f32 = 320.0;
 
 impl Tautline {
     pub(super) fn notice_bar(&mut self, ui: &mut Ui) {
@@ -24,19 +29,21 @@ impl Tautline {
     }
 
     pub(super) fn wide(&mut self, ui: &mut Ui) {
-        let [left, right] = self.state.widths;
-        let controls = Panel::left("controls").default_size(left).min_size(340.0).show(ui, |ui| {
-            ScrollArea::vertical().show(ui, |ui| {
-                self.controls(ui);
-            });
-        });
-        let answer = Panel::right("answer").default_size(right).min_size(280.0).show(ui, |ui| {
+        let shown = widths(self.state.panels, ui.available_width());
+        let mut set = shown;
+        set[0] = side(ui, Panel::left("controls"), "controls", shown[0], LEAST[0], |ui| self.controls(ui));
+        set[1] = side(ui, Panel::right("answer"), "answer", shown[1], LEAST[1], |ui| {
             ui.add_space(6.0);
             self.answer(ui);
             ui.separator();
             self.plots(ui);
         });
-        self.state.widths = [controls, answer].map(|panel| panel.response.rect.width());
+        for ((kept, set), shown) in self.state.panels.iter_mut().zip(set).zip(shown) {
+            // Only a person changes a width. Where a small window has made it smaller, it comes back with the room.
+            if (set - shown).abs() > 0.5 {
+                *kept = set;
+            }
+        }
         CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
     }
 
@@ -46,7 +53,7 @@ impl Tautline {
             self.canvas(ui);
         });
         CentralPanel::default().show(ui, |ui| {
-            ScrollArea::vertical().show(ui, |ui| {
+            gestures::scroll(ui, |ui| {
                 self.answer(ui);
                 ui.separator();
                 ui.horizontal(|ui| {
@@ -71,7 +78,7 @@ impl Tautline {
     fn answer(&mut self, ui: &mut Ui) {
         let top = ui.cursor().min;
         panels::answer::ui(ui, self.facts());
-        self.places.answer = Rect::from_min_max(top, ui.min_rect().max);
+        self.places.answer = Rect::from_min_max(top, ui.min_rect().max).intersect(ui.clip_rect());
     }
 
     fn controls(&mut self, ui: &mut Ui) {
@@ -83,12 +90,13 @@ impl Tautline {
     fn plots(&mut self, ui: &mut Ui) {
         self.plots_open = true;
         let facts = self.present.facts(self.state.settings);
-        self.places.plot = panels::plots::ui(&mut self.state, ui, facts, &mut self.commands);
+        let place = panels::plots::ui(&mut self.state, ui, facts, &mut self.commands);
+        self.places.plot = place.intersect(ui.clip_rect());
     }
 
     fn canvas(&mut self, ui: &mut Ui) {
         let facts = self.present.facts(self.state.settings);
-        self.places.canvas = canvas::ui(&mut self.layer, &mut self.state, ui, facts, &mut self.commands);
+        self.places.canvas = canvas::ui(&mut self.canvas, &mut self.state, ui, facts, &mut self.commands);
     }
 
     pub(super) fn menu(&mut self, ui: &mut Ui) {
@@ -99,5 +107,42 @@ impl Tautline {
             unpin: self.present.pinned.is_some() || self.pinning,
         };
         menu::ui(ui, &mut self.state, possible, &mut self.commands);
+    }
+}
+
+/// A panel at a side, so wide, whatever is in it. Gives how wide it is to be from now on: its edge can be dragged.
+fn side(ui: &mut Ui, panel: Panel, name: &str, width: f32, least: f32, content: impl FnOnce(&mut Ui)) -> f32 {
+    // egui keeps the width of a panel's content; the width that a person has set is kept here.
+    let outer_rect = Rect::from_min_size(egui::Pos2::ZERO, Vec2::new(width, ui.available_height()));
+    let id = ui.scope_id().with(name);
+    ui.data_mut(|data| data.insert_persisted(id, PanelState { outer_rect }));
+    let most = width.max(ui.available_width() - CANVAS);
+    let panel = panel.size_range(least..=most).show(ui, |ui| gestures::scroll(ui, content));
+    panel.response.rect.width()
+}
+
+/// How wide the panels are where there is so much room, in points, that they leave some to the canvas.
+fn widths(set: [f32; 2], room: f32) -> [f32; 2] {
+    let more = [0, 1].map(|i| if set[i].is_finite() { (set[i] - LEAST[i]).max(0.0) } else { 0.0 });
+    let left = (room - CANVAS - LEAST[0] - LEAST[1]).max(0.0);
+    let part = (left / (more[0] + more[1]).max(1.0)).min(1.0);
+    [0, 1].map(|i| LEAST[i] + part * more[i])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panels_are_as_wide_as_set_and_leave_room_to_the_canvas() {
+        let near = |a: [f32; 2], b: [f32; 2]| (a[0] - b[0]).abs() < 0.01 && (a[1] - b[1]).abs() < 0.01;
+        assert!(near(widths([380.0, 340.0], 1280.0), [380.0, 340.0]));
+        assert!(near(widths([900.0, 340.0], 1920.0), [900.0, 340.0]));
+        for set in [[900.0, 900.0], [2000.0, 280.0], [f32::INFINITY, 400.0], [f32::NAN, -1.0]] {
+            let [left, right] = widths(set, 1280.0);
+            assert!(left >= LEAST[0] && right >= LEAST[1] && left + right <= 1280.0 - CANVAS + 0.01, "{left} {right}");
+        }
+        // Where there is no room they take the least that they can do with.
+        assert!(near(widths([380.0, 340.0], 800.0), LEAST));
     }
 }

@@ -1,13 +1,15 @@
 //! The bar at the top, and the keys that do the same.
 
 use eframe::egui::{
-    Button, Context, Key, KeyboardShortcut, MenuBar, Modifiers, Panel, PopupCloseBehavior, Ui,
+    Button, Context, Key, KeyboardShortcut, MenuBar, Modifiers, Panel, Popup, PopupCloseBehavior, Ui,
     containers::menu::MenuConfig,
 };
 
 use crate::app::command::Command;
 use crate::app::export::Content;
-use crate::app::state::{Camera, Plot, UiState, Windows};
+use crate::app::meaning::Explain as _;
+use crate::app::state::{Camera, Plot, UiState};
+use crate::app::windows;
 
 const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
 const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
@@ -39,7 +41,7 @@ pub fn ui(ui: &mut Ui, state: &mut UiState, possible: Possible, commands: &mut V
             ui.menu_button("View", |ui| view(ui, state));
             ui.menu_button("Help", |ui| help(ui, state));
             ui.separator();
-            if ui.button("Share").on_hover_text("Puts a link to this robot on the clipboard").clicked() {
+            if ui.button("Share").explained("Puts a link to this robot on the clipboard").clicked() {
                 commands.push(Command::Share);
             }
             let (name, text) = if possible.unpin {
@@ -47,7 +49,7 @@ pub fn ui(ui: &mut Ui, state: &mut UiState, possible: Possible, commands: &mut V
             } else {
                 ("Pin", "Keeps this design: all answers and plots then show the difference to it")
             };
-            if ui.button(name).on_hover_text(text).clicked() {
+            if ui.button(name).explained(text).clicked() {
                 commands.push(Command::Pin(!possible.unpin));
             }
             for (name, can, command) in [("Undo", possible.undo, Command::Undo), ("Redo", possible.redo, Command::Redo)]
@@ -152,7 +154,7 @@ pub fn shortcuts(context: &Context) -> Vec<(String, &'static str)> {
         (". and ,", "One step of the mode shape forward or back"),
         ("M", "Map on or off"),
         ("?", "This list"),
-        ("Esc", "Leave a control, close a window"),
+        ("Esc", "Take back what is typed; close a list, a menu, a window, the tour, one at a time"),
     ];
     all.extend(others.map(|(keys, meaning)| (keys.to_owned(), meaning)));
     all
@@ -179,6 +181,7 @@ pub fn keys(context: &Context, state: &mut UiState, commands: &mut Vec<Command>)
             commands.push(Command::Save(Content::Scenario));
         }
     });
+    escape(context, state);
     // A focused button takes the space bar, and letters are for whoever has the focus.
     let focused = context.memory(|memory| memory.focused().is_some());
     context.input_mut(|input| {
@@ -202,12 +205,20 @@ pub fn keys(context: &Context, state: &mut UiState, commands: &mut Vec<Command>)
         if pressed(Key::Num0) {
             state.camera = Camera::default();
         }
-        if pressed(Key::Escape) {
-            state.windows = Windows::default();
-            state.tour_taken |= state.tour.take().is_some();
-        }
         if input.events.iter().any(|event| matches!(event, eframe::egui::Event::Text(text) if text == "?")) {
             state.windows.shortcuts = true;
         }
     });
+}
+
+/// Esc closes the innermost thing that is open, one for each press: a list, a menu or an explanation; else the foremost
+/// window; else the tour. What is typed comes before all of them, and is taken back by its field.
+fn escape(context: &Context, state: &mut UiState) {
+    // These hear of the key from egui.
+    if Popup::is_any_open(context) || !context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+        return;
+    }
+    if !windows::close_foremost(context, &mut state.windows) {
+        state.tour_taken |= state.tour.take().is_some();
+    }
 }

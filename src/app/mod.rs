@@ -11,8 +11,10 @@ mod command;
 mod export;
 mod fields;
 mod files;
+mod gestures;
 mod history;
 mod layout;
+mod meaning;
 mod menu;
 #[cfg(target_arch = "wasm32")]
 mod mirror;
@@ -84,8 +86,7 @@ pub struct Tautline {
     plots_open: bool,
     /// Where things were drawn in the last frame, for pictures of them.
     places: Places,
-    /// Pictures made of studies, kept from frame to frame.
-    layer: canvas::map::Layer,
+    canvas: canvas::Runtime,
     windows: windows::Runtime,
     revision: Revision,
     notice: Option<Notice>,
@@ -182,6 +183,7 @@ impl Tautline {
         let storage = context.storage;
         let context = &context.egui_ctx;
         theme::install_fonts(context);
+        gestures::install(context);
         let wake_for_studies = context.clone();
         // Held until the first answer is there, which comes before all studies.
         let mut pool = Pool::new(move || wake_for_studies.request_repaint());
@@ -219,7 +221,7 @@ impl Tautline {
             applied: Settings::default(),
             plots_open: false,
             places: Places::default(),
-            layer: canvas::map::Layer::default(),
+            canvas: canvas::Runtime::default(),
             windows: windows::Runtime::default(),
             revision: 0,
             notice,

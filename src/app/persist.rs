@@ -168,6 +168,9 @@ mod tests {
         storage.set_string(ORIGINAL, "no JSON".into());
         storage.set_string(STATE, r#"{"campbell_hz": 9.0}"#.into());
         assert_eq!(document(&storage), Some(Document::opened(presets::PRESETS[0].scenario())));
+        // Earlier versions wrote down how wide panels were made by what was in them, not by a person.
+        storage.set_string(STATE, r#"{"campbell_hz": 9.0, "widths": [535.0, 340.0]}"#.into());
+        assert_eq!(state(&storage).map(|state| state.panels), Some(UiState::default().panels));
         assert_eq!(state(&storage).map(|state| (state.campbell_hz, state.plot)), Some((9.0, Plot::default())));
     }
 }

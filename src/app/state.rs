@@ -96,8 +96,8 @@ pub struct UiState {
     pub mode: ModeChoice,
     /// The mode shape's movement.
     pub playback: Playback,
-    /// The widths of the panels on the left and on the right, in points.
-    pub widths: [f32; 2],
+    /// The widths of the panels on the left and on the right, in points, as they were set.
+    pub panels: [f32; 2],
     /// Whether the tour has been taken or skipped.
     pub tour_taken: bool,
     /// The tour's step on show, from 0.
@@ -109,9 +109,6 @@ pub struct UiState {
     /// Whether winches can be dragged.
     #[serde(skip)]
     pub unlocked: bool,
-    /// What was the frame when the pointer was pressed: [left, bottom, right, top] in m.
-    #[serde(skip)]
-    pub held_frame: Option<[f64; 4]>,
     /// The canvas's zoom and pan.
     #[serde(skip)]
     pub camera: Camera,
@@ -245,12 +242,11 @@ impl Default for UiState {
             page: Page::default(),
             mode: critical_mode(),
             playback: Playback::default(),
-            widths: [380.0, 340.0],
+            panels: [380.0, 340.0],
             tour_taken: false,
             tour: None,
             wanted: None,
             unlocked: false,
-            held_frame: None,
             camera: Camera::default(),
             map: MapView::default(),
             campbell_hz: 5.0,

@@ -5,9 +5,10 @@ use eframe::egui::{
     CursorIcon, EventFilter, InputState, Key, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
 };
 
-use super::paint::{ARROW_GAP, arrow_tip};
-use super::{Scene, View};
+use super::paint::arrow_tip;
+use super::{Arrow, Scene, View};
 use crate::app::command::Command;
+use crate::app::meaning::Explain as _;
 use crate::app::state::{Camera, Document};
 use crate::app::theme;
 
@@ -20,15 +21,16 @@ const SPEED_STEP: f64 = 0.5;
 /// Directions turn by this much per key press, in radians; with Shift by a tenth of it.
 const TURN_STEP: f64 = 0.1;
 
-/// The platform and the arrow's tip.
+/// The platform and the arrow's tip. Gives whether the tip is held.
 pub fn ui(
     ui: &mut Ui,
     painter: &Painter,
     view: &View,
     scene: &Scene,
+    arrow: Arrow,
     document: &Document,
     commands: &mut Vec<Command>,
-) {
+) -> bool {
     let platform = handle(ui, painter, "Platform", view.pos_in_ui(scene.platform), CursorIcon::Grab);
     let mut scenario = document.scenario.clone();
     let motion = &mut scenario.motion;
@@ -42,14 +44,15 @@ pub fn ui(
     let [x, y] = motion.position;
     if !platform.dragged() {
         let text = format!("Platform at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it, with Shift finely.");
-        platform.on_hover_text(text);
+        platform.explained(text);
     }
 
-    let tip = handle(ui, painter, "Velocity", arrow_tip(view, scene), CursorIcon::Grab);
-    if let Some(grabbed) = drag(ui, &tip, arrow_tip(view, scene)) {
+    let at = arrow_tip(view, scene, arrow);
+    let tip = handle(ui, painter, "Velocity", at, CursorIcon::Grab);
+    if let Some(grabbed) = drag(ui, &tip, at) {
         let from_platform = grabbed - view.pos_in_ui(scene.platform);
-        let beyond = view.vec_in_world(Vec2::new((from_platform.length() - ARROW_GAP).max(0.0), 0.0))[0];
-        motion.speed = roundest(beyond / scene.arrow_scale, 1.0 / (view.scale * scene.arrow_scale)).max(0.0);
+        let [speed, point] = arrow.speed(from_platform.length(), view.scale);
+        motion.speed = roundest(speed, point).max(0.0);
         if from_platform.length() > 1.0 {
             let [x, y] = view.vec_in_world(from_platform);
             motion.direction = [x / x.hypot(y), y / x.hypot(y)];
@@ -61,15 +64,19 @@ pub fn ui(
         let [x, y] = motion.direction;
         motion.direction = [cosine * x - sine * y, sine * x + cosine * y];
     }
+    let held = tip.is_pointer_button_down_on();
     if !tip.dragged() {
         let speed = motion.speed;
-        tip.on_hover_text(format!(
-            "Velocity {speed:.2} m/s. Drag it for direction and speed; keys: ← → turn, ↑ ↓ speed, with Shift finely."
+        let step = arrow.step;
+        tip.explained(format!(
+            "Velocity {speed:.2} m/s; 1 m of the arrow is {step} m/s. Drag it for direction and speed; keys: ← → turn, \
+             ↑ ↓ speed, with Shift finely."
         ));
     }
     if scenario.motion != document.scenario.motion {
         commands.push(Command::Edit(Box::new(scenario)));
     }
+    held
 }
 
 /// The winches, once they are unlocked.
@@ -94,7 +101,7 @@ pub fn winches(
         }
         if !winch.dragged() {
             let [x, y] = cable.anchor;
-            winch.on_hover_text(format!("Winch {} at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it.", i + 1));
+            winch.explained(format!("Winch {} at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it.", i + 1));
         }
     }
     if scenario.cables != document.scenario.cables {

@@ -1,6 +1,7 @@
 //! The robot, drawn and dragged: model (what there is), view (where it is on the screen), paint, handles, and the map
 //! under it.
 
+mod arrow;
 mod handles;
 pub mod map;
 mod model;
@@ -9,9 +10,10 @@ mod view;
 
 use eframe::egui::{self, Rect, Sense, Ui};
 
+use arrow::Arrow;
 pub use map::named;
 pub use model::{Scene, frame, phase_advance};
-pub use paint::grid_step;
+pub use paint::round_step;
 pub use view::View;
 
 use crate::app::command::Command;
@@ -19,9 +21,22 @@ use crate::app::state::{Plot, UiState};
 use crate::app::{Facts, series};
 use crate::compute::protocol::Topic;
 
+/// What the canvas keeps from frame to frame.
+#[derive(Default)]
+pub struct Runtime {
+    /// Pictures made of studies.
+    layer: map::Layer,
+    /// What was the frame when the pointer was pressed, else what it is: [left, bottom, right, top] in m.
+    frame: Option<[f64; 4]>,
+    /// The arrow of the last frame.
+    arrow: Option<Arrow>,
+    /// Whether its tip was held then.
+    holds_tip: bool,
+}
+
 /// Draws the canvas in all the room there is, and turns drags, clicks and keys into commands. Gives where it is.
 pub fn ui(
-    layer: &mut map::Layer,
+    runtime: &mut Runtime,
     state: &mut UiState,
     ui: &mut Ui,
     facts: Facts<'_>,
@@ -33,15 +48,22 @@ pub fn ui(
     let scene = Scene::new(&document.scenario, answers, &state.playback);
     // The frame follows the winches, but not while one is dragged: the ground would move under the pointer.
     let pressed = ui.input(|input| input.pointer.any_down());
-    let held = if pressed { state.held_frame.or(Some(scene.frame)) } else { None };
-    state.held_frame = held;
-    let view = View::new(rect, held.unwrap_or(scene.frame), state.camera);
+    let frame = runtime.frame.filter(|_| pressed).unwrap_or(scene.frame);
+    runtime.frame = Some(frame);
+    let view = View::new(rect, frame, state.camera);
+    // While its tip is held the arrow's scale stays, or the speed would jump.
+    let arrow = runtime.arrow.filter(|_| pressed && runtime.holds_tip).unwrap_or_else(|| {
+        let room = arrow::room(rect, view.pos_in_ui(scene.platform), View::direction_in_ui(scene.direction));
+        let before = runtime.arrow.map(|arrow| arrow.step);
+        Arrow::new(scene.speed, view.scale, room, scene.frame[2] - scene.frame[0], before)
+    });
+    runtime.arrow = Some(arrow);
     let mut painter = ui.painter_at(rect);
     painter.set_clip_rect(rect.intersect(ui.clip_rect()));
     paint::background(&painter, ui.visuals(), &view);
-    layer.update(ui, studies, state.map);
-    layer.paint(&painter, ui, &view);
-    paint::scene(&painter, ui.visuals(), &view, &scene, state.map.on);
+    runtime.layer.update(ui, studies, state.map);
+    runtime.layer.paint(&painter, ui, &view);
+    paint::scene(&painter, ui.visuals(), &view, &scene, arrow, state.map.on);
     // The marker belongs to the diagram beside it, and to one pose.
     let polar = studies.shown(Topic::Polar).filter(|shown| shown.current && state.plot == Plot::Directions);
     if let Some((direction, speed)) = polar.and_then(|shown| series::worst_direction(shown.known)) {
@@ -50,16 +72,17 @@ pub fn ui(
     if state.map.on {
         map::point(ui, &painter, &background, &view, facts, commands);
     }
-    handles::ui(ui, &painter, &view, &scene, document, commands);
+    runtime.holds_tip = handles::ui(ui, &painter, &view, &scene, arrow, document, commands);
     if state.unlocked {
         handles::winches(ui, &painter, &view, &scene, document, commands);
     }
     handles::camera(ui, &background, &view, &mut state.camera, !state.map.on);
     if state.map.on {
-        layer.legend(&painter, ui, rect, facts);
+        runtime.layer.legend(&painter, ui, rect, facts);
     } else {
         paint::legend(&painter, ui.visuals(), rect, &scene);
     }
+    paint::arrow_legend(&painter, ui.visuals(), rect, arrow);
     map::controls(ui, rect, state, studies, commands);
     rect
 }

@@ -8,9 +8,6 @@ use crate::compute::protocol::{DrawnShape, ModeShape};
 use crate::robot::TensionLaw;
 use crate::scenario::Scenario;
 
-/// Metres of arrow per m/s, as a part of the robot's width.
-const ARROW: f64 = 1.0 / 40.0;
-
 /// What is to be drawn.
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -24,8 +21,6 @@ pub struct Scene {
     pub direction: [f64; 2],
     /// The speed in m/s.
     pub speed: f64,
-    /// Metres of arrow per m/s.
-    pub arrow_scale: f64,
     /// Smallest and largest axial force, in N, where there is any.
     pub tensions: Option<[f64; 2]>,
 }
@@ -78,7 +73,6 @@ impl Scene {
             platform: scenario.motion.position,
             direction: [x / length, y / length],
             speed: scenario.motion.speed,
-            arrow_scale: ARROW * width,
             tensions: range(cables.iter().flat_map(|cable| cable.forces.iter().copied())),
             cables,
         }

@@ -2,11 +2,8 @@
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
 
-use super::{Scene, View};
+use super::{Arrow, Scene, View};
 use crate::app::theme;
-
-/// Points between the platform's middle and the arrow's start; also what the arrow's handle is away at rest.
-pub const ARROW_GAP: f32 = 26.0;
 
 /// Longer lines than this, in points, are not dashed.
 const LONGEST_DASHED: f32 = 1e4;
@@ -18,7 +15,7 @@ pub fn background(painter: &Painter, visuals: &Visuals, view: &View) {
 
 /// Draws everything but the background and the handles. Over a map, whose colours mean something else, cables do not
 /// show their tension.
-pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, over_map: bool) {
+pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, arrow: Arrow, over_map: bool) {
     grid(painter, visuals, view, scene);
     for cable in &scene.cables {
         if cable.nodes.is_empty() {
@@ -57,7 +54,7 @@ pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, o
     for (i, cable) in scene.cables.iter().enumerate() {
         winch(painter, visuals, view, scene, i, cable.prescribed);
     }
-    arrow(painter, visuals, view, scene);
+    velocity(painter, visuals, view, scene, arrow);
     let platform = view.pos_in_ui(scene.platform);
     painter.circle(platform, 11.0, theme::accent(visuals), Stroke::new(2.0, visuals.extreme_bg_color));
 }
@@ -81,7 +78,7 @@ fn grid(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
     let [left, bottom, right, top] = scene.frame;
     let frame = Rect::from_two_pos(view.pos_in_ui([left, bottom]), view.pos_in_ui([right, top]));
     let faint = Stroke::new(0.5, visuals.weak_text_color().gamma_multiply(0.35));
-    let step = grid_step(80.0 / view.scale);
+    let step = round_step(80.0 / view.scale);
     let text = visuals.weak_text_color();
     let font = FontId::proportional(11.0);
     for (low, high, vertical) in [(left, right, true), (bottom, top, false)] {
@@ -107,7 +104,7 @@ fn grid(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
 }
 
 /// The smallest of 1, 2, 5 times a power of ten that is at least `least`.
-pub fn grid_step(least: f64) -> f64 {
+pub fn round_step(least: f64) -> f64 {
     let decade = 10.0_f64.powf(least.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|digit| digit * decade).find(|&step| step >= least).unwrap_or(10.0 * decade)
 }
@@ -135,16 +132,15 @@ fn winch(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, i: us
 }
 
 /// The arrow's tip on the screen.
-pub fn arrow_tip(view: &View, scene: &Scene) -> Pos2 {
-    #[expect(clippy::cast_possible_truncation)] // Screen coordinates are f32.
-    let length = (scene.speed * scene.arrow_scale * view.scale) as f32;
-    view.pos_in_ui(scene.platform) + View::direction_in_ui(scene.direction) * (ARROW_GAP + length)
+pub fn arrow_tip(view: &View, scene: &Scene, arrow: Arrow) -> Pos2 {
+    let away = arrow.away(scene.speed, view.scale);
+    view.pos_in_ui(scene.platform) + View::direction_in_ui(scene.direction) * away
 }
 
-fn arrow(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
+fn velocity(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, arrow: Arrow) {
     let direction = View::direction_in_ui(scene.direction);
     let start = view.pos_in_ui(scene.platform) + direction * 14.0;
-    let tip = arrow_tip(view, scene);
+    let tip = arrow_tip(view, scene, arrow);
     let colour = theme::accent(visuals);
     let across = direction.rot90();
     let rim = Stroke::new(1.5, visuals.extreme_bg_color);
@@ -152,6 +148,12 @@ fn arrow(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
     painter.line_segment([start, tip - direction * 8.0], Stroke::new(3.0, colour));
     let head = vec![tip, tip - direction * 12.0 + across * 6.0, tip - direction * 12.0 - across * 6.0];
     painter.add(Shape::convex_polygon(head, colour, rim));
+}
+
+/// What the arrow's length means, in the canvas's upper left corner, below the tensions.
+pub fn arrow_legend(painter: &Painter, visuals: &Visuals, rect: Rect, arrow: Arrow) {
+    let at = rect.min + Vec2::new(12.0, 54.0);
+    painter.text(at, Align2::LEFT_TOP, arrow.legend(), FontId::proportional(12.0), visuals.text_color());
 }
 
 /// A dashed arrow in the direction with the lowest critical speed, with that speed in m/s.
@@ -204,9 +206,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn grid_steps_are_round() {
+    fn round_steps_are_round() {
         for (least, step) in [(0.8, 1.0), (1.0, 1.0), (1.3, 2.0), (3.0, 5.0), (7.0, 10.0), (0.03, 0.05)] {
-            assert!((grid_step(least) / step - 1.0).abs() < 1e-12, "{least}: {}", grid_step(least));
+            assert!((round_step(least) / step - 1.0).abs() < 1e-12, "{least}: {}", round_step(least));
         }
         assert_eq!([trimmed(2.5), trimmed(-0.0), trimmed(10.0)], ["2.5", "0", "10"]);
     }

@@ -16,6 +16,8 @@ use eframe::egui::{
     WidgetInfo, WidgetText,
 };
 
+use crate::app::gestures;
+use crate::app::meaning::Explain as _;
 use crate::app::theme;
 
 pub use unit::Unit;
@@ -126,6 +128,7 @@ impl Control<'_> {
             self.inside(ui, value)
         });
         let answer = answer.inner;
+        gestures::scrolls_or_turns(&answer.response);
         if let Some(refusal) = ui.data(|data| data.get_temp::<Refusal>(refusal_id()))
             && refusal.id == answer.response.id
         {
@@ -265,7 +268,7 @@ impl Control<'_> {
         let mut response = ui.add(button).on_hover_cursor(CursorIcon::ResizeHorizontal);
         let full = self.unit.with_name(&self.unit.full(value));
         if full != short {
-            response = response.on_hover_text(full);
+            response = response.explained(full);
         }
         if response.clicked() {
             ui.memory_mut(|memory| memory.request_focus(id));
@@ -351,17 +354,19 @@ impl Control<'_> {
     }
 }
 
-/// A slider, whose equal steps are equal ratios, with its number and its name. The number, `value` as it is stored, must
+/// A slider, whose equal steps are equal ratios, with its number and its name, which says what it means. The number, `value` as it is stored, must
 /// be within `range`, given in the control's unit.
-pub fn slider(ui: &mut Ui, control: &Control<'_>, value: &mut f64, range: [f64; 2]) -> Response {
+pub fn slider(ui: &mut Ui, control: &Control<'_>, meaning: &str, value: &mut f64, range: [f64; 2]) {
     let [low, high] = range;
     let before = control.unit.shown(*value);
     let mut shown = before;
     let slider = Slider::new(&mut shown, low..=high).logarithmic(true).show_value(false);
     let slider = ui.add(slider.clamping(SliderClamping::Never));
-    let answer = control.show(ui, *value);
-    let name = ui.label(control.name);
-    let slider = slider.labelled_by(name.id).union(answer.response.clone().labelled_by(name.id));
+    gestures::scrolls_or_turns(&slider);
+    let mut answer = control.show(ui, *value);
+    let name = ui.label(control.name).explained(meaning);
+    slider.labelled_by(name.id);
+    answer.response = answer.response.labelled_by(name.id);
     if shown.total_cmp(&before).is_ne() {
         *value = control.unit.to_stored(shown);
     }
@@ -377,7 +382,6 @@ pub fn slider(ui: &mut Ui, control: &Control<'_>, value: &mut f64, range: [f64; 
             answer.refuse(ui, format!("{} must be from {low} to {high}", control.name));
         }
     }
-    slider
 }
 
 /// Shows a message under a control, over what is there, so that nothing moves.

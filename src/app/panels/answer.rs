@@ -4,6 +4,7 @@ use eframe::egui::{Label, RichText, Spinner, Ui};
 
 use crate::app::Facts;
 use crate::app::answers::CriticalState;
+use crate::app::meaning::Explain as _;
 use crate::app::theme;
 use crate::compute::protocol::CriticalAnswer;
 use crate::scenario::report::KindReport;
@@ -19,7 +20,7 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>) {
     let visuals = ui.visuals().clone();
     ui.horizontal(|ui| {
         ui.label(RichText::new("Critical speed").strong());
-        ui.weak("(frozen-time criterion: what is it?)").on_hover_text(FROZEN_TIME);
+        ui.weak("(frozen-time criterion: what is it?)").explained(FROZEN_TIME);
     });
     match facts.answers.critical() {
         CriticalState::Broken(reason) => {
@@ -71,7 +72,7 @@ fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool
         return;
     };
     let figure = RichText::new(format!("{:.4} m/s", critical.speed)).size(34.0).strong();
-    ui.add(Label::new(figure.color(shade(visuals.strong_text_color())))).on_hover_text(FROZEN_TIME);
+    ui.add(Label::new(figure.color(shade(visuals.strong_text_color())))).explained(FROZEN_TIME);
     let rate = answers.pose().and_then(|pose| pose.report.cables.get(critical.cable - 1)).map(|c| c.length_rate);
     let moving = rate.map_or("", |rate| if rate < 0.0 { ", being reeled in" } else { ", being paid out" });
     let kind = match critical.kind {

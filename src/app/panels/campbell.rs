@@ -6,9 +6,10 @@ use eframe::egui::emath::smart_aim::best_in_range_f64;
 use eframe::egui::{Id, Ui, Vec2, Visuals};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoints, PlotUi, Points, VLine};
 
-use super::{explain, few_lines, study};
+use super::{explain, few_lines, plot_height, study};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::gestures;
 use crate::app::number::{self, Control, Unit};
 use crate::app::series::{self, Piece};
 use crate::app::studies::Shown;
@@ -37,7 +38,8 @@ pub fn ui(
         let unit = Unit::of_hertz(settings.hertz().1);
         let step = 0.01 * unit.shown(*highest);
         let control = Control { name: "Highest frequency", unit, step, size: Vec2::new(80.0, 18.0) };
-        number::slider(ui, &control, highest, [0.5, 100.0].map(|end| unit.shown(end)));
+        let meaning = "Modes with higher frequencies are not drawn.";
+        number::slider(ui, &control, meaning, highest, [0.5, 100.0].map(|end| unit.shown(end)));
     });
     let pieces = joined.pieces();
     if pieces.is_empty() {
@@ -45,7 +47,7 @@ pub fn ui(
         ui.weak(if ended { "No eigenvalues at this pose." } else { "No answer yet." });
         return;
     }
-    let height = (0.5 * ui.available_height() - 6.0).max(150.0);
+    let height = plot_height(ui, 2);
     let visuals = ui.visuals().clone();
     let critical = answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|critical| critical.speed);
     let today = document.scenario.motion.speed;
@@ -98,6 +100,7 @@ pub fn ui(
             let line = VLine::new("Today's speed", today).style(LineStyle::dashed_loose());
             plot.vline(line.color(theme::accent(&visuals)).width(2.0));
         });
+        gestures::scrolls_or_turns(&shown.response);
         if let Some(at) = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked()) {
             let speed = |pos| shown.transform.value_from_position(pos).x.max(0.0);
             let point = eframe::egui::Vec2::new(0.5, 0.0);

@@ -9,6 +9,8 @@ use crate::app::Facts;
 use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::fields::{self, Field, Number};
+use crate::app::gestures;
+use crate::app::meaning::Explain as _;
 use crate::app::number::{self, Control};
 use crate::app::state::{Document, Settings, UiState};
 use crate::robot::{Linearisation, Strain, TensionLaw};
@@ -54,10 +56,12 @@ fn examples(ui: &mut Ui, document: &Document, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         let label = ui.label("Robot");
         let name = document.scenario.name.as_deref().unwrap_or("Unnamed robot");
-        let list = ComboBox::from_id_salt("examples").selected_text(name).width(210.0).show_ui(ui, |ui| {
+        let room = ui.available_width();
+        let list = ComboBox::from_id_salt("examples").selected_text(name).truncate().width(room.min(210.0));
+        let list = list.show_ui(ui, |ui| {
             for preset in presets::PRESETS {
                 let chosen = document.scenario.name.as_deref() == Some(preset.title);
-                if ui.selectable_label(chosen, preset.title).on_hover_text(preset.description).clicked() {
+                if ui.selectable_label(chosen, preset.title).explained(preset.description).clicked() {
                     commands.push(Command::Load(Box::new(preset.scenario())));
                 }
             }
@@ -99,7 +103,7 @@ fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
         let name = Label::new(title.trim_end()).truncate().sense(Sense::hover());
         let column = ui.allocate_ui_with_layout(LABEL, Layout::left_to_right(Align::Center), |ui| {
             ui.set_min_size(LABEL);
-            ui.add(name).on_hover_text(field.meaning)
+            ui.add(name).explained(field.meaning)
         });
         let name = column.inner;
         ui.spacing_mut().slider_width = (ui.available_width() - NUMBER.x - 38.0).clamp(60.0, 260.0);
@@ -117,6 +121,7 @@ fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
             slider = slider.step_by(1.0);
         }
         let slider = ui.add(slider).labelled_by(name.id);
+        gestures::scrolls_or_turns(&slider);
         if sheet.wanted == Some(field.number) {
             sheet.wanted = None;
             slider.request_focus();
@@ -136,7 +141,7 @@ fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
         let reset = field.number.is_in(sheet.original) && !same(value, field.number.get(sheet.original));
         let first = number::brief(unit.shown(field.number.get(sheet.original)));
         let button = ui.add_enabled(reset, Button::new("↺").small().frame(false));
-        if button.on_hover_text(format!("Back to {}", unit.with_name(&first))).clicked() {
+        if button.explained(format!("Back to {}", unit.with_name(&first))).clicked() {
             field.number.copy(sheet.original, &mut sheet.edited);
         }
         if let Some(value) = answer.value {
@@ -158,20 +163,19 @@ fn same(a: f64, b: f64) -> bool {
 fn choices(ui: &mut Ui, edited: &mut Scenario) {
     ui.add_space(4.0);
     Grid::new("choices").num_columns(2).show(ui, |ui| {
-        ui.label("Stiffness").on_hover_text("The elastic stiffness that a small vibration meets.");
+        ui.label("Stiffness").explained("The elastic stiffness that a small vibration meets.");
         ui.horizontal(|ui| {
             ui.radio_value(&mut edited.linearisation, Linearisation::Secant, "Secant")
-                .on_hover_text("(N/λ) I: the paper's simplification, its Eq. 15");
+                .explained("(N/λ) I: the paper's simplification, its Eq. 15");
             ui.radio_value(&mut edited.linearisation, Linearisation::Tangent, "Tangent")
-                .on_hover_text("(N/λ)(I − e⊗e) + N'(λ) e⊗e: the full derivative, its Eq. 14");
+                .explained("(N/λ)(I − e⊗e) + N'(λ) e⊗e: the full derivative, its Eq. 14");
         });
         ui.end_row();
-        ui.label("Strain").on_hover_text("The strain measure of the axial law N(λ).");
+        ui.label("Strain").explained("The strain measure of the axial law N(λ).");
         ui.horizontal(|ui| {
             ui.radio_value(&mut edited.cable.strain, Strain::Green, "Green")
-                .on_hover_text("N = ½ EA (λ³ − λ), from the energy ½ EA ε² with ε = ½ (λ² − 1)");
-            ui.radio_value(&mut edited.cable.strain, Strain::Engineering, "Engineering")
-                .on_hover_text("N = EA (λ − 1)");
+                .explained("N = ½ EA (λ³ − λ), from the energy ½ EA ε² with ε = ½ (λ² − 1)");
+            ui.radio_value(&mut edited.cable.strain, Strain::Engineering, "Engineering").explained("N = EA (λ − 1)");
         });
         ui.end_row();
     });
@@ -199,7 +203,7 @@ fn tensions(ui: &mut Ui, sheet: &mut Sheet<'_>) {
                 if ui.radio(constant, "Constant").clicked() && !constant {
                     sheet.edited.cables[cable].tension = TensionLaw::Constant(tension);
                 }
-                if ui.radio(!constant, "Law").on_hover_text(fields::law(0)[0].meaning).clicked() && constant {
+                if ui.radio(!constant, "Law").explained(fields::law(0)[0].meaning).clicked() && constant {
                     let vertical = [0.0, 0.0, 0.0];
                     sheet.edited.cables[cable].tension =
                         TensionLaw::Hypot { horizontal: [tension, 0.0, 0.0], vertical };

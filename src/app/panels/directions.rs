@@ -5,9 +5,11 @@ use std::f64::consts::TAU;
 use eframe::egui::{Align2, Color32, RichText, Ui, Visuals};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text};
 
-use super::{explain, study};
+use super::{explain, plot_height, study};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::gestures;
+use crate::app::meaning::Explain as _;
 use crate::app::series::{self, degrees};
 use crate::app::studies::{Known, Shown};
 use crate::app::theme;
@@ -30,12 +32,12 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, comma
     let all = if known.is_complete() { "" } else { " so far" };
     ui.label(format!("Worst direction{all}: {:.0}°, critical at {speed:.4} m/s", degrees(worst)));
     let button = ui.button("Move in the worst direction");
-    if button.on_hover_text("Sets the direction of the motion").clicked() {
+    if button.explained("Sets the direction of the motion").clicked() {
         let mut scenario = document.scenario.clone();
         scenario.motion.direction = worst;
         commands.push(Command::Edit(Box::new(scenario)));
     }
-    let size = ui.available_height().min(ui.available_width()).max(240.0);
+    let size = plot_height(ui, 1).min(ui.available_width());
     let plot = Plot::new("directions")
         .height(size)
         .data_aspect(1.0)
@@ -54,12 +56,13 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, comma
     let visuals = ui.visuals().clone();
     let today = document.scenario.motion.direction;
     let before = pinned.and_then(|pinned| pinned.study(Topic::Polar));
-    plot.show(ui, |plot| {
+    let shown = plot.show(ui, |plot| {
         if let Some(before) = before {
             around(plot, before, theme::pinned(&visuals), LineStyle::dashed_dense());
         }
         draw(plot, &visuals, known, current, today, (worst, speed));
     });
+    gestures::scrolls_or_turns(&shown.response);
 }
 
 fn draw(
@@ -125,7 +128,7 @@ fn rings(plot: &mut PlotUi<'_>, visuals: &Visuals, largest: f64) {
         let (sine, cosine) = (TAU * f64::from(spoke) / 12.0).sin_cos();
         plot.line(ring(vec![[0.0, 0.0], [1.1 * largest * cosine, 1.1 * largest * sine]]));
     }
-    let step = crate::app::canvas::grid_step(largest / 4.0);
+    let step = crate::app::canvas::round_step(largest / 4.0);
     for i in 1..=5_u8 {
         let radius = f64::from(i) * step;
         if radius > 1.1 * largest {

@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use eframe::egui::Ui;
 use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
 
-use super::{STALE, explain, near, with_modes};
+use super::{STALE, explain, near, plot_height, with_modes};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::gestures;
 use crate::app::pinned::Pinned;
 use crate::app::theme;
 use crate::compute::protocol::ModeChoice;
@@ -42,7 +43,7 @@ pub fn ui(
     let plot = Plot::new("eigenvalues")
         .x_axis_label("Re λ, growth rate (1/s)")
         .y_axis_label(if unit == "Hz" { "Im λ/2π (Hz)" } else { "Im λ (rad/s)" })
-        .height(ui.available_height().max(220.0))
+        .height(plot_height(ui, 1))
         .include_x(0.2)
         .allow_scroll(false)
         .label_formatter(move |hover| {
@@ -67,6 +68,7 @@ pub fn ui(
             plot.points(ring.filled(false));
         }
     });
+    gestures::scrolls_or_turns(&shown.response);
     if let Some(clicked) = shown.response.interact_pointer_pos().filter(|_| shown.response.clicked()) {
         let distance = |mode: &[f64; 2]| shown.transform.position_from_point(&point(*mode).into()).distance(clicked);
         let eigenvalues = pose.modes.iter().map(|mode| mode.eigenvalue);

@@ -3,8 +3,9 @@
 use eframe::egui::Ui;
 use egui_plot::{Corner, HLine, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
 
-use super::{STALE, explain};
+use super::{STALE, explain, plot_height};
 use crate::app::Facts;
+use crate::app::gestures;
 use crate::app::theme;
 
 /// Draws the plot.
@@ -26,10 +27,10 @@ pub fn ui(ui: &mut Ui, Facts { document, answers, pinned, .. }: Facts<'_>) {
          below zero everything dies away, above zero something grows.",
     );
     let colour = if current { theme::calm(&visuals) } else { visuals.weak_text_color() };
-    Plot::new("growth")
+    let shown = Plot::new("growth")
         .x_axis_label("Speed (m/s)")
         .y_axis_label("Largest Re λ (1/s)")
-        .height(ui.available_height().max(220.0))
+        .height(plot_height(ui, 1))
         .include_y(0.0)
         .allow_scroll(false)
         .legend(Legend::default().position(Corner::LeftTop))
@@ -60,6 +61,7 @@ pub fn ui(ui: &mut Ui, Facts { document, answers, pinned, .. }: Facts<'_>) {
             let today = VLine::new(format!("Today {speed:.2} m/s"), speed).style(LineStyle::dashed_loose());
             plot.vline(today.color(theme::accent(&visuals)).width(2.0));
         });
+    gestures::scrolls_or_turns(&shown.response);
 }
 
 /// The curve without its steep end: where growth far exceeds the decay at low speeds it would flatten the crossing.

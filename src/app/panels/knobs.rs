@@ -5,6 +5,7 @@ use eframe::egui::{Align2, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetIn
 use super::{STALE, explain};
 use crate::app::Facts;
 use crate::app::fields::Number;
+use crate::app::meaning::Explain as _;
 use crate::app::state::UiState;
 use crate::app::theme;
 use crate::robot::TensionLaw;
@@ -91,7 +92,7 @@ fn bar(ui: &mut Ui, one: &SensitivityReport, largest: f64, then: Option<f64>, cu
         painter.vline(end(then), y, Stroke::new(2.0, theme::pinned(visuals)));
     }
     let frequency = one.frequency.map_or_else(String::new, |change| format!("\nFrequency {change:+.3} % per percent"));
-    response.on_hover_text(format!("Critical speed {:+.4} % per percent{frequency}", one.speed)).clicked()
+    response.explained(format!("Critical speed {:+.4} % per percent{frequency}", one.speed)).clicked()
 }
 
 fn name(knob: KnobReport) -> String {

@@ -3,9 +3,10 @@
 use eframe::egui::{Id, Ui};
 use egui_plot::{HoverPosition, Line, LineStyle, Plot, PlotPoints, PlotUi, Points, Span, VLine};
 
-use super::{explain, few_lines, study};
+use super::{explain, few_lines, plot_height, study};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::gestures;
 use crate::app::series::Along;
 use crate::app::theme;
 use crate::compute::protocol::{Topic, VerdictAnswer};
@@ -41,7 +42,7 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, settings, pinned, .. }: Facts<
     if !along.infeasible().is_empty() {
         ui.weak("Shaded: no equilibrium.");
     }
-    let height = (0.5 * ui.available_height() - 6.0).max(150.0);
+    let height = plot_height(ui, 2);
     let today = along.place(document.scenario.motion.position);
     let (hertz, name) = settings.hertz();
     let frequency = format!("Frequency ({name})");
@@ -74,7 +75,7 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, settings, pinned, .. }: Facts<
                 let length = length.trim_end_matches(')');
                 Some(format!("{name} {:.3} {length}\n{:.4} {unit}", point.x, point.y))
             });
-        plot.show(ui, |plot| {
+        let shown = plot.show(ui, |plot| {
             if let Some(before) = &before {
                 let colour = theme::pinned(&plot.ctx().global_style().visuals);
                 for stretch in before.stretches(value) {
@@ -84,6 +85,7 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, settings, pinned, .. }: Facts<
             }
             draw(plot, &along, value, today, current);
         });
+        gestures::scrolls_or_turns(&shown.response);
     }
 }
 

@@ -3,9 +3,10 @@
 use eframe::egui::Ui;
 use egui_plot::{HLine, HoverPosition, Line, LineStyle, Plot, PlotPoints, Points, VLine};
 
-use super::{explain, few_lines, study};
+use super::{explain, few_lines, plot_height, study};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::gestures;
 use crate::app::series::Meshes;
 use crate::app::studies::Shown;
 use crate::app::theme;
@@ -41,8 +42,8 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, comma
     }
     let visuals = ui.visuals().clone();
     let colour = if current { theme::calm(&visuals) } else { visuals.weak_text_color() };
-    Plot::new("mesh")
-        .height(ui.available_height().max(220.0))
+    let shown = Plot::new("mesh")
+        .height(plot_height(ui, 1))
         .x_axis_label("Elements per cable")
         .y_axis_label("Critical speed (m/s)")
         .include_x(0.0)
@@ -68,6 +69,7 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, comma
             let line = VLine::new("Today's mesh", today as f64).style(LineStyle::dashed_loose());
             plot.vline(line.color(theme::accent(&visuals)).width(2.0));
         });
+    gestures::scrolls_or_turns(&shown.response);
 }
 
 /// How wrong today's mesh is, in a sentence.

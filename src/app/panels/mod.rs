@@ -19,6 +19,7 @@ use egui_plot::{GridInput, GridMark};
 use crate::app::answers::Answers;
 use crate::app::canvas;
 use crate::app::command::Command;
+use crate::app::meaning::Explain as _;
 use crate::app::studies::{Shown, Stage, Studies};
 use crate::compute::protocol::{ModeChoice, PoseAnswer, Topic, Which};
 
@@ -44,11 +45,20 @@ fn explain(ui: &mut Ui, text: &str) {
     CollapsingHeader::new("What am I seeing?").show(ui, |ui| ui.label(text));
 }
 
+/// The height of each of so many plots, one above the other: all the room there is. With less than this, in points, a
+/// plot tells nothing, and the panel scrolls.
+fn plot_height(ui: &Ui, plots: u8) -> f32 {
+    const LEAST: [f32; 2] = [180.0, 130.0];
+    let between = ui.spacing().item_spacing.y * f32::from(plots - 1);
+    let least = LEAST[usize::from(plots > 1)];
+    ((ui.available_height() - between) / f32::from(plots)).floor().max(least)
+}
+
 /// Grid lines at round values, few enough that each has its label.
 #[expect(clippy::needless_pass_by_value)] // As egui_plot calls it.
 fn few_lines(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
-    let step = canvas::grid_step((high - low) / 4.0);
+    let step = canvas::round_step((high - low) / 4.0);
     // At most five or so: the step follows the range.
     #[expect(clippy::cast_possible_truncation)]
     let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
@@ -67,7 +77,7 @@ fn study<'a>(ui: &mut Ui, topic: Topic, studies: &'a Studies, commands: &mut Vec
             }
             (_, Some(Shown { current: false, .. })) => {
                 canvas::map::progress(ui, topic, studies, commands);
-                ui.weak("Earlier state").on_hover_text(STALE);
+                ui.weak("Earlier state").explained(STALE);
             }
             _ => canvas::map::progress(ui, topic, studies, commands),
         }

@@ -3,9 +3,10 @@
 use eframe::egui::{Label, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 
-use super::{STALE, explain, near, with_modes};
+use super::{STALE, explain, near, plot_height, with_modes};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::meaning::Explain as _;
 use crate::app::pinned::Pinned;
 use crate::app::theme;
 use crate::compute::protocol::{ModeChoice, ModeRow};
@@ -37,20 +38,27 @@ pub fn ui(
             "In brackets: the difference to the pinned design's nearest mode.",
         );
     }
-    let height = ui.available_height().max(220.0);
+    let height = plot_height(ui, 1);
     TableBuilder::new(ui)
         .id_salt("modes")
         .striped(true)
         .sense(Sense::click())
         .max_scroll_height(height - 24.0)
-        .min_scrolled_height(180.0)
+        .min_scrolled_height(120.0)
         .column(Column::auto().at_least(28.0))
         .columns(Column::auto().at_least(64.0), 3)
         .column(Column::remainder())
         .header(18.0, |mut header| {
-            for title in ["#", unit, "1/s", "ζ", "Cable"] {
+            let titles = [
+                ("#", "The modes by frequency. 3×2 is the third one, which is there twice, as along x and along y."),
+                (unit, "The frequency of the vibration, Im λ; 0 where it does not oscillate."),
+                ("1/s", "The growth rate Re λ: above zero (▲) the vibration grows, below it dies away."),
+                ("ζ", "The damping ratio −Re λ/|λ|. Below zero the vibration grows."),
+                ("Cable", "The cable with most of the vibration's kinetic energy, and its part of it."),
+            ];
+            for (title, meaning) in titles {
                 header.col(|ui| {
-                    ui.strong(title);
+                    ui.strong(title).explained(meaning);
                 });
             }
         })

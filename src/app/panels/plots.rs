@@ -1,10 +1,12 @@
 //! The tabs of plots and the mode shape's playback.
 
-use eframe::egui::{Rect, Slider, SliderClamping, Ui, Vec2};
+use eframe::egui::{Rect, Response, Slider, SliderClamping, Ui, Vec2};
 
 use super::{campbell, directions, eigenvalues, growth, knobs, line, mesh, modes};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::gestures;
+use crate::app::meaning::Explain as _;
 use crate::app::number::{self, Control, Unit};
 use crate::app::state::{Playback, Plot, UiState};
 use crate::compute::protocol::{ModeChoice, Which};
@@ -45,6 +47,14 @@ pub fn ui(state: &mut UiState, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec
     Rect::from_min_max(top, ui.min_rect().max)
 }
 
+/// A slider with its name behind it.
+fn slider(ui: &mut Ui, slider: Slider<'_>, name: &str, meaning: &str) -> Response {
+    let slider = ui.add(slider);
+    gestures::scrolls_or_turns(&slider);
+    let name = ui.label(name).explained(meaning);
+    slider.labelled_by(name.id)
+}
+
 fn playback(
     playback: &mut Playback,
     ui: &mut Ui,
@@ -67,7 +77,7 @@ fn playback(
             playback.playing = !playback.playing;
         }
         for (label, text, step) in [("←", "One step back", -1.0), ("→", "One step forward", 1.0)] {
-            let button = ui.button(label).on_hover_text(text);
+            let button = ui.button(label).explained(text);
             button.widget_info(|| eframe::egui::WidgetInfo::labeled(eframe::egui::Role::Button, true, text));
             if button.clicked() {
                 playback.step(step);
@@ -75,13 +85,13 @@ fn playback(
         }
         let critical = choice.which == Which::Critical;
         let response = ui.selectable_label(critical, "Critical mode");
-        if response.on_hover_text("Show the mode that crosses at the critical speed").clicked() && !critical {
+        if response.explained("Show the mode that crosses at the critical speed").clicked() && !critical {
             commands.push(Command::ChooseMode(ModeChoice { which: Which::Critical, ..choice }));
         }
         if document.scenario.linearisation == Linearisation::Secant {
             let text = "With secant stiffness x and y vibrate alike and independently; this shows one of the two.";
             for (along_x, name) in [(true, "x"), (false, "y")] {
-                let response = ui.selectable_label(choice.along_x == along_x, name).on_hover_text(text);
+                let response = ui.selectable_label(choice.along_x == along_x, name).explained(text);
                 if response.clicked() && choice.along_x != along_x {
                     commands.push(Command::ChooseMode(ModeChoice { along_x, ..choice }));
                 }
@@ -91,10 +101,11 @@ fn playback(
     ui.horizontal_wrapped(|ui| {
         ui.spacing_mut().slider_width = 70.0;
         let amplitude = Slider::new(&mut playback.amplitude, 0.0..=0.1).show_value(false);
-        ui.add(amplitude.clamping(SliderClamping::Never).text("Amplitude"));
+        let amplitude = amplitude.clamping(SliderClamping::Never);
+        slider(ui, amplitude, "Amplitude", "The largest displacement, as a part of the robot's width");
         let mut degrees = playback.phase.to_degrees();
-        let phase = Slider::new(&mut degrees, 0.0..=360.0).show_value(false).text("Phase");
-        if ui.add(phase).on_hover_text("Where in its oscillation the mode is").changed() {
+        let phase = Slider::new(&mut degrees, 0.0..=360.0).show_value(false);
+        if slider(ui, phase, "Phase", "Where in its oscillation the mode is").changed() {
             playback.playing = false;
             playback.phase = degrees.to_radians();
         }
@@ -103,11 +114,11 @@ fn playback(
         ui.spacing_mut().slider_width = 70.0;
         let tempo = playback.slow_motion;
         let control = Control { name: "Tempo", unit: Unit::of(""), step: 0.01 * tempo, size: Vec2::new(64.0, 18.0) };
-        number::slider(ui, &control, &mut playback.slow_motion, [0.02, 2.0])
-            .on_hover_text("Seconds of the robot per second of the screen");
+        let meaning = "Seconds of the robot per second of the screen";
+        number::slider(ui, &control, meaning, &mut playback.slow_motion, [0.02, 2.0]);
         if cfg!(target_arch = "wasm32") {
             let text = "The mode's frequency as a tone, eight octaves higher";
-            ui.toggle_value(&mut playback.sound, "Sound").on_hover_text(text);
+            ui.toggle_value(&mut playback.sound, "Sound").explained(text);
         }
     });
 }

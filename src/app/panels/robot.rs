@@ -3,6 +3,7 @@
 use eframe::egui::{Button, CollapsingHeader, ComboBox, Ui};
 
 use super::controls::{NUMBER, Sheet, rows};
+use crate::app::meaning::Explain as _;
 use crate::app::number::{Control, Unit};
 use crate::app::{canvas, fields};
 use crate::robot::{CABLES, TensionLaw};
@@ -14,10 +15,10 @@ pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
     ui.add_space(6.0);
     CollapsingHeader::new("Layout of the robot").show(ui, |ui| {
         ui.checkbox(unlocked, "Unlock the winches")
-            .on_hover_text("Winches can then be dragged on the canvas, or moved by arrow keys");
+            .explained("Winches can then be dragged on the canvas, or moved by arrow keys");
         frame(ui, sheet);
         ui.horizontal_wrapped(|ui| {
-            ui.label("At equilibrium").on_hover_text("The tensions of these two cables hold the platform in balance");
+            ui.label("At equilibrium").explained("The tensions of these two cables hold the platform in balance");
             let pair = equilibrium(&sheet.edited);
             for place in 0..pair.len().min(2) {
                 partner(ui, &mut sheet.edited, &pair, place);
@@ -31,7 +32,7 @@ pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
                 rows(ui, sheet, &fields::anchor(cable, frame));
                 let reason = why_it_stays(&sheet.edited, cable);
                 let button = ui.add_enabled(reason.is_none(), Button::new(format!("Remove cable {}", cable + 1)));
-                if button.on_disabled_hover_text(reason.unwrap_or_default()).clicked() {
+                if button.grey_because(ui, reason.unwrap_or_default()).clicked() {
                     removed = Some(cable);
                 }
             });
@@ -41,7 +42,7 @@ pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
         }
         let full = format!("A robot has at most {} cables here.", CABLES.end());
         let button = ui.add_enabled(count < *CABLES.end(), Button::new("Add a cable"));
-        if button.on_disabled_hover_text(full).clicked() {
+        if button.grey_because(ui, full).clicked() {
             let cable = another(&sheet.edited);
             sheet.edited.cables.push(cable);
         }
@@ -55,7 +56,7 @@ fn frame(ui: &mut Ui, sheet: &mut Sheet<'_>) {
         (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max))
     };
     ui.horizontal_wrapped(|ui| {
-        ui.label("Frame").on_hover_text("The workspace that the winches span. Another size moves them in proportion.");
+        ui.label("Frame").explained("The workspace that the winches span. Another size moves them in proportion.");
         for (i, name) in [(0, "Width"), (1, "Height")] {
             let (low, high) = spans(&sheet.edited, i);
             let before = high - low;

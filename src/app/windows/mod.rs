@@ -5,10 +5,10 @@ mod shortcuts;
 mod theory;
 mod validation;
 
-use eframe::egui::{Align2, Context, ScrollArea, Ui, Window};
+use eframe::egui::{Align2, Context, Id, LayerId, Order, ScrollArea, Ui, Window};
 
 use crate::app::command::Command;
-use crate::app::state::UiState;
+use crate::app::state::{UiState, Windows};
 
 /// What windows keep from frame to frame.
 #[derive(Default)]
@@ -42,15 +42,34 @@ pub fn ui(context: &Context, state: &mut UiState, runtime: &mut Runtime, command
     state.windows = open;
 }
 
+/// Closes the window that is in front of all others, if one is open.
+pub fn close_foremost(context: &Context, open: &mut Windows) -> bool {
+    let layers: Vec<LayerId> = context.memory(|memory| memory.layer_ids().collect());
+    let Windows { settings, shortcuts, theory, validation } = open;
+    let all =
+        [("Settings", settings), ("Keyboard shortcuts", shortcuts), ("Theory", theory), ("Validation", validation)];
+    let place = |title| layers.iter().position(|layer| *layer == LayerId::new(Order::Middle, id(title)));
+    let foremost = all.into_iter().filter(|(_, open)| **open).max_by_key(|(title, _)| place(*title));
+    foremost.map(|(_, open)| *open = false).is_some()
+}
+
+/// egui's name of a window.
+fn id(title: &str) -> Id {
+    Id::unique(("window", title))
+}
+
 /// A window in the middle, so many points wide where there is room, that scrolls where the screen is small.
 fn window(context: &Context, title: &str, width: f32, open: &mut bool, content: impl FnOnce(&mut Ui)) {
     let room = context.content_rect();
-    Window::new(title).open(open).collapsible(false).anchor(Align2::CENTER_CENTER, [0.0, 0.0]).resizable(false).show(
-        context,
-        |ui| {
+    Window::new(title)
+        .id(id(title))
+        .open(open)
+        .collapsible(false)
+        .anchor(Align2::CENTER_CENTER, [0.0, 0.0])
+        .resizable(false)
+        .show(context, |ui| {
             ui.set_width((room.width() - 40.0).min(width));
             let height = room.height() - 110.0;
             ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, content);
-        },
-    );
+        });
 }

@@ -3,6 +3,7 @@
 use eframe::egui::{Button, Grid, Label, RichText, Ui};
 
 use crate::app::command::Command;
+use crate::app::meaning::Explain as _;
 use crate::app::theme;
 use crate::compute::protocol::CheckAnswer;
 use crate::study::validation::Outcome;
@@ -99,9 +100,16 @@ pub fn ui(ui: &mut Ui, run: &mut Run, commands: &mut Vec<Command>) {
 
 fn wide(ui: &mut Ui, run: &Run) {
     Grid::new("validation").num_columns(5).striped(true).spacing([12.0, 6.0]).show(ui, |ui| {
-        for title in ["Check", "Expected", "Got", "Error (allowed)", ""] {
-            ui.strong(title);
+        let titles = [
+            ("Check", "What is computed, and where its expected value comes from."),
+            ("Expected", "The value that is known."),
+            ("Got", "What Tautline has computed here, just now."),
+            ("Error (allowed)", "By how much the two differ, and how much is allowed."),
+        ];
+        for (title, meaning) in titles {
+            ui.strong(title).explained(meaning);
         }
+        ui.label("");
         ui.end_row();
         for answer in &run.answers {
             ui.vertical(|ui| {

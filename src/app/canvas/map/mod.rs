@@ -14,6 +14,7 @@ pub use picture::Picture;
 use super::View;
 use super::handles::roundest;
 use crate::app::command::Command;
+use crate::app::meaning::Explain as _;
 use crate::app::state::{Camera, MapQuantity, MapView, Settings, UiState};
 use crate::app::studies::{Known, Shown, Stage, Studies};
 use crate::app::{Facts, series};
@@ -112,7 +113,7 @@ pub fn controls(ui: &mut Ui, rect: Rect, state: &mut UiState, studies: &Studies,
     ui.scope_builder(UiBuilder::new().max_rect(room).layout(layout), |ui| {
         ui.allocate_ui_with_layout(Vec2::new(room.width(), 20.0), Layout::right_to_left(Align::Center), |ui| {
             let text = "Colours the workspace under the robot, point by point. A click on it moves the platform.";
-            ui.toggle_value(&mut state.map.on, "Map").on_hover_text(text);
+            ui.toggle_value(&mut state.map.on, "Map").explained(text);
             if state.map.on {
                 choices(ui, &mut state.map);
             }
@@ -134,16 +135,16 @@ fn choices(ui: &mut Ui, map: &mut MapView) {
     let list = ComboBox::from_id_salt("map direction").width(126.0).selected_text(name(map.worst));
     let list = list.show_ui(ui, |ui| {
         let text = "Every point is passed in the motion's direction.";
-        ui.selectable_value(&mut map.worst, false, name(false)).on_hover_text(text);
+        ui.selectable_value(&mut map.worst, false, name(false)).explained(text);
         let text = "At every point the worst of 16 directions counts. This takes longer.";
-        ui.selectable_value(&mut map.worst, true, name(true)).on_hover_text(text);
+        ui.selectable_value(&mut map.worst, true, name(true)).explained(text);
     });
     named(&list.response, "Map direction", name(map.worst));
     let title = |quantity| QUANTITIES.iter().find(|(other, ..)| *other == quantity).map_or("", |(_, name, _)| name);
     let list = ComboBox::from_id_salt("map quantity").width(104.0).selected_text(title(map.quantity));
     let list = list.show_ui(ui, |ui| {
         for (quantity, name, text) in QUANTITIES {
-            ui.selectable_value(&mut map.quantity, quantity, name).on_hover_text(text);
+            ui.selectable_value(&mut map.quantity, quantity, name).explained(text);
         }
     });
     named(&list.response, "Map quantity", title(map.quantity));
@@ -165,7 +166,7 @@ pub fn progress(ui: &mut Ui, topic: Topic, studies: &Studies, commands: &mut Vec
     let part = (progress.done as f64 / progress.total.max(1) as f64) as f32;
     match progress.stage {
         Stage::Working => {
-            if ui.button("Cancel").on_hover_text("Stops this study; what is known of it stays").clicked() {
+            if ui.button("Cancel").explained("Stops this study; what is known of it stays").clicked() {
                 commands.push(Command::StopStudy(topic));
             }
             let text = format!("{} of {}", progress.done, progress.total);
@@ -173,7 +174,7 @@ pub fn progress(ui: &mut Ui, topic: Topic, studies: &Studies, commands: &mut Vec
                 // The bar's own ground is the canvas's.
                 ui.visuals_mut().extreme_bg_color = ui.visuals().widgets.inactive.weak_bg_fill;
                 let response = ui.add(ProgressBar::new(part).desired_width(120.0).text(text));
-                response.on_hover_text("Points computed so far");
+                response.explained("Points computed so far");
             });
         }
         Stage::Stopped => {

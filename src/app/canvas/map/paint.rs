@@ -285,7 +285,7 @@ fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     if high - low <= 1e-9 * high.abs() {
         return vec![(low, format!("{low:.4}"))];
     }
-    let step = super::super::paint::grid_step((high - low) / 4.0);
+    let step = super::super::paint::round_step((high - low) / 4.0);
     // At most five, and small.
     #[expect(clippy::cast_possible_truncation)]
     let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);

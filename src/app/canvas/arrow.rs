@@ -1,0 +1,163 @@
+//! How long the arrow of the velocity is. Its scale goes in steps and follows the room that there is, so that its tip
+//! can be grabbed at every speed.
+
+use eframe::egui::{Pos2, Rect, Vec2};
+
+use super::paint::round_step;
+
+/// Points between the platform's middle and the arrow at rest, where there is room for them.
+const GAP: f32 = 26.0;
+/// Points between the tip and the canvas's border.
+const BORDER: f32 = 12.0;
+/// With less room than this, in points, an arrow cannot be seen; its tip may then leave the canvas.
+const LEAST: f32 = 16.0;
+/// A scale with longer arrows comes back where they need no more than this part of the room.
+const COMFORTABLE: f32 = 0.7;
+/// At the first scale so many m/s are as long as the robot is wide.
+const WHOLE: f64 = 40.0;
+
+/// How speeds are drawn as lengths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrow {
+    /// So many m/s make a metre of the arrow.
+    pub step: f64,
+    /// Points between the platform's middle and the arrow at rest.
+    gap: f32,
+}
+
+impl Arrow {
+    /// The arrow of `speed` in m/s where there is `room`, in points, in its direction, a metre of the world is `scale`
+    /// points and the robot is `width` metres wide. The step stays what it was as long as that is sensible.
+    pub fn new(speed: f64, scale: f64, room: f32, width: f64, before: Option<f64>) -> Self {
+        let room = room.max(LEAST);
+        let gap = GAP.min(0.5 * room);
+        let fits = |step: f64, part: f32| Self { step, gap }.away(speed, scale) <= gap + part * (room - gap);
+        // About as long as the robot at the speed of WHOLE.
+        let first = round_step(0.75 * WHOLE / width);
+        let smallest = |part| {
+            let mut step = first;
+            // Speeds are finite, so that this ends; 150 steps are 50 decades.
+            for _ in 0..150 {
+                if fits(step, part) {
+                    break;
+                }
+                step = round_step(1.1 * step);
+            }
+            step
+        };
+        let kept = before.filter(|&step| fits(step, 1.0) && step >= 0.99 * first);
+        // Down only as far as is comfortable, so that it does not go to and fro about a limit.
+        let step = kept.map_or_else(|| smallest(1.0), |step| step.min(smallest(COMFORTABLE)));
+        Self { step, gap }
+    }
+
+    /// Points from the platform's middle to the tip. A metre of the world is `scale` points.
+    pub fn away(&self, speed: f64, scale: f64) -> f32 {
+        #[expect(clippy::cast_possible_truncation)] // Screen coordinates are f32.
+        let length = (speed * scale / self.step) as f32;
+        self.gap + length
+    }
+
+    /// The speed in m/s of an arrow whose tip is so many points from the platform's middle, and what a point is then.
+    pub fn speed(&self, away: f32, scale: f64) -> [f64; 2] {
+        let point = self.step / scale;
+        [f64::from((away - self.gap).max(0.0)) * point, point]
+    }
+
+    /// What a person needs to know of the scale.
+    pub fn legend(&self) -> String {
+        format!("Arrow: 1 m is {} m/s", self.step)
+    }
+}
+
+/// The way in points from a place on the canvas to where a tip may be farthest in that direction. No limit where the
+/// place itself is not on the canvas.
+pub fn room(canvas: Rect, from: Pos2, direction: Vec2) -> f32 {
+    if !canvas.contains(from) {
+        return f32::INFINITY;
+    }
+    let within = canvas.shrink(BORDER);
+    let along = |at: f32, way: f32, low: f32, high: f32| {
+        if way > 1e-6 {
+            (high - at) / way
+        } else if way < -1e-6 {
+            (low - at) / way
+        } else {
+            f32::INFINITY
+        }
+    };
+    let x = along(from.x, direction.x, within.min.x, within.max.x);
+    let y = along(from.y, direction.y, within.min.y, within.max.y);
+    x.min(y).max(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points per metre of the paper's robot, 20 m wide, on a canvas of 320 × 296 points.
+    const SCALE: f64 = 11.6;
+    const WIDTH: f64 = 20.0;
+
+    fn canvas() -> Rect {
+        Rect::from_min_size(Pos2::new(0.0, 30.0), Vec2::new(320.0, 296.0))
+    }
+
+    #[test]
+    fn the_tip_is_on_the_canvas_at_every_speed_everywhere() {
+        for speed in [0.0, 1e-3, 1.0, 5.0, 25.0, 40.0, 299.0, 1e4, 1e9, 1e30] {
+            for turn in 0..24_u8 {
+                let direction = Vec2::angled(f32::from(turn) * 0.2618);
+                for at in
+                    [Pos2::new(160.0, 178.0), Pos2::new(44.0, 120.0), Pos2::new(276.0, 62.0), Pos2::new(300.0, 300.0)]
+                {
+                    for scale in [SCALE, 0.2 * SCALE, 200.0 * SCALE] {
+                        let room = room(canvas(), at, direction);
+                        let arrow = Arrow::new(speed, scale, room, WIDTH, None);
+                        let tip = at + direction * arrow.away(speed, scale);
+                        let what = format!("{speed} m/s, {at:?}, {direction:?}, {scale}: {tip:?}, {arrow:?}");
+                        assert!(canvas().contains(tip), "{what}");
+                        let [back, point] = arrow.speed(arrow.away(speed, scale), scale);
+                        assert!((back - speed).abs() <= 1e-4 * speed + 1e-3 * point, "{what}: {back}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_scale_goes_in_round_steps_and_a_usual_speed_has_the_usual_one() {
+        let arrow = |speed, room| Arrow::new(speed, 25.0, room, WIDTH, None);
+        assert_eq!(arrow(5.0, 250.0).legend(), "Arrow: 1 m is 2 m/s");
+        assert_eq!(arrow(25.0, 250.0).legend(), "Arrow: 1 m is 5 m/s");
+        assert_eq!(arrow(60.0, 250.0).legend(), "Arrow: 1 m is 10 m/s");
+        // The least scale is the robot's, not that of the room.
+        assert_eq!(arrow(0.0, 9e9), arrow(5.0, 9e9));
+        assert_eq!(Arrow::new(5.0, 250.0, 250.0, 3.6, None).legend(), "Arrow: 1 m is 10 m/s");
+    }
+
+    #[test]
+    fn a_step_is_kept_about_the_speed_where_it_changes() {
+        let scale = 25.0;
+        let steps = |speeds: &[f64]| {
+            let mut step = None;
+            let follow = |&speed: &f64| {
+                step = Some(Arrow::new(speed, scale, 250.0, WIDTH, step).step);
+                step
+            };
+            speeds.iter().filter_map(follow).collect::<Vec<f64>>()
+        };
+        // 17.92 m/s fill the room at 2 m/s per metre.
+        assert_eq!(steps(&[17.0, 17.9, 18.0, 17.9, 17.0, 14.0, 12.0, 14.0]), [2.0, 2.0, 5.0, 5.0, 5.0, 5.0, 2.0, 2.0]);
+        // A scale that belongs to another robot is given up.
+        assert_eq!(Arrow::new(1.0, scale, 250.0, 0.2, Some(2.0)).legend(), "Arrow: 1 m is 200 m/s");
+    }
+
+    #[test]
+    fn room_ends_before_the_border() {
+        let middle = canvas().center();
+        assert!((room(canvas(), middle, Vec2::RIGHT) - 148.0).abs() < 1e-3);
+        assert!((room(canvas(), middle, -Vec2::Y) - 136.0).abs() < 1e-3);
+        assert!(room(canvas(), Pos2::new(-9.0, 0.0), Vec2::RIGHT).is_infinite());
+    }
+}

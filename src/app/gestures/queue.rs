@@ -1,0 +1,277 @@
+//! Events of the pointer in portions that egui understands.
+//!
+//! egui looks at a drag once for each pass, at where the pointer is at its end. Where frames are slow, a press, a
+//! movement and the release may all come before one pass: the press is then looked for where the drag has ended, and
+//! the way there is dropped, since nothing is dragged any more. Here each waits for a pass of its own.
+
+use std::collections::{BTreeSet, VecDeque};
+
+use eframe::egui::{Event, Modifiers, PointerButton, Pos2, TouchId, TouchPhase};
+
+/// A finger that has moved this far, in points, shows where it wants to go. It is egui's own limit of clicks.
+const DECIDED: f32 = 6.0;
+
+/// What has come and was not handed on yet.
+#[derive(Debug, Default)]
+pub(super) struct Queue {
+    waiting: VecDeque<Waiting>,
+    /// Where the pointer is, as far as egui knows.
+    at: Option<Pos2>,
+    /// The buttons that are down, as far as egui knows.
+    down: Vec<PointerButton>,
+    /// The fingers on the screen.
+    fingers: BTreeSet<TouchId>,
+    finger: Finger,
+}
+
+#[derive(Debug)]
+struct Waiting {
+    event: Event,
+    /// It is the press of a finger, of which it is not known yet what it wants.
+    finger: bool,
+}
+
+/// A finger that has come down on what turns or scrolls.
+#[derive(Debug, Default)]
+enum Finger {
+    /// There is none.
+    #[default]
+    None,
+    /// It may still want anything. Its press is kept back.
+    Undecided { press: Event },
+    /// It scrolls. egui is not told of its press.
+    Scrolls { from: Pos2, begins: bool },
+}
+
+impl Queue {
+    /// Takes in what has come.
+    pub(super) fn extend(&mut self, events: Vec<Event>) {
+        let start = |event: &Event| match event {
+            Event::Touch { phase: TouchPhase::Start, pos, .. } => Some(*pos),
+            _ => None,
+        };
+        let started: Vec<Pos2> = events.iter().filter_map(start).collect();
+        self.waiting.extend(events.into_iter().map(|event| {
+            // Backends tell of a finger twice, as a touch and as what a mouse would have done there, in either order.
+            let finger = matches!(&event, Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. }
+                if started.iter().any(|start| start.distance(*pos) < 1.0));
+            Waiting { event, finger }
+        }));
+    }
+
+    /// Whether something waits for the next pass.
+    pub(super) fn is_waiting(&self) -> bool {
+        !self.waiting.is_empty()
+    }
+
+    /// Where the finger has come down that begins to scroll in this pass.
+    pub(super) fn swipe(&self) -> Option<Pos2> {
+        match self.finger {
+            Finger::Scrolls { from, begins: true } => Some(from),
+            _ => None,
+        }
+    }
+
+    /// What the next pass is to know. `turns` tells where a finger may turn something or scroll.
+    pub(super) fn next(&mut self, turns: impl Fn(Pos2) -> bool) -> Vec<Event> {
+        let mut out = Vec::new();
+        if let Finger::Scrolls { begins, .. } = &mut self.finger {
+            *begins = false;
+        }
+        // Whether a button has changed in this pass, and whether something was dragged.
+        let (mut changed, mut dragged) = (false, false);
+        while let Some(Waiting { event, finger }) = self.waiting.pop_front() {
+            match event {
+                Event::PointerMoved(to) if matches!(self.finger, Finger::Undecided { .. }) => {
+                    let way = to - self.at.unwrap_or(to);
+                    if way.length() <= DECIDED {
+                        continue;
+                    }
+                    if way.y.abs() <= way.x.abs() {
+                        self.waiting.push_front(Waiting { event, finger });
+                        self.press();
+                        continue;
+                    }
+                    self.finger = Finger::Scrolls { from: to - way, begins: true };
+                    dragged = true;
+                }
+                Event::PointerMoved(to) if self.at != Some(to) => {
+                    if changed {
+                        self.waiting.push_front(Waiting { event, finger });
+                        break;
+                    }
+                    dragged |= self.drags();
+                }
+                Event::PointerButton { pos, button, pressed, .. } => {
+                    let tap = !pressed && matches!(self.finger, Finger::Undecided { .. });
+                    if tap {
+                        self.waiting.push_front(Waiting { event, finger });
+                        self.press();
+                        continue;
+                    }
+                    let moves = self.at != Some(pos);
+                    if changed || (!pressed && (dragged || (moves && self.drags()))) {
+                        self.waiting.push_front(Waiting { event, finger });
+                        if moves && !changed {
+                            self.at = Some(pos);
+                            out.push(Event::PointerMoved(pos));
+                        }
+                        break;
+                    }
+                    if moves {
+                        self.at = Some(pos);
+                        out.push(Event::PointerMoved(pos));
+                    }
+                    if finger && self.fingers.len() <= 1 && turns(pos) {
+                        self.finger = Finger::Undecided { press: event };
+                        continue;
+                    }
+                    changed = true;
+                    self.change(button, pressed);
+                }
+                Event::Touch { id, phase: TouchPhase::Start, .. } => {
+                    self.fingers.insert(id);
+                    if self.fingers.len() > 1 {
+                        // Two fingers zoom, so the first one's press counts as any other.
+                        self.press();
+                    }
+                }
+                Event::Touch { id, phase: TouchPhase::End, .. } => drop(self.fingers.remove(&id)),
+                Event::Touch { id, phase: TouchPhase::Cancel, .. } => {
+                    self.fingers.remove(&id);
+                    // What it has done counts, and it is no tap. egui knows of no drag without an end.
+                    let drags = self.drags();
+                    self.finger = Finger::None;
+                    if let Some(pos) = self.at.filter(|_| drags) {
+                        let (button, modifiers) = (PointerButton::Primary, Modifiers::default());
+                        let event = Event::PointerButton { pos, button, pressed: false, modifiers };
+                        self.waiting.push_front(Waiting { event, finger: false });
+                    }
+                }
+                _ => {}
+            }
+            match event {
+                Event::PointerMoved(to) => self.at = Some(to),
+                Event::PointerGone => self.at = None,
+                _ => {}
+            }
+            out.push(event);
+        }
+        out
+    }
+
+    /// Hands a press on that was kept back.
+    fn press(&mut self) {
+        match std::mem::take(&mut self.finger) {
+            Finger::Undecided { press } => self.waiting.push_front(Waiting { event: press, finger: false }),
+            other => self.finger = other,
+        }
+    }
+
+    /// Notes that a button has changed.
+    fn change(&mut self, button: PointerButton, pressed: bool) {
+        self.down.retain(|other| *other != button);
+        if pressed {
+            self.down.push(button);
+        } else {
+            self.finger = Finger::None;
+        }
+    }
+
+    fn drags(&self) -> bool {
+        !self.down.is_empty() || matches!(self.finger, Finger::Scrolls { .. })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use eframe::egui::{TouchDeviceId, pos2};
+
+    use super::*;
+
+    const A: Pos2 = pos2(10.0, 10.0);
+    const RIGHT: Pos2 = pos2(40.0, 12.0);
+    const DOWN: Pos2 = pos2(12.0, 40.0);
+
+    fn button(pos: Pos2, pressed: bool) -> Event {
+        Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::default() }
+    }
+
+    fn touch(id: u64, phase: TouchPhase, pos: Pos2) -> Event {
+        Event::Touch { device_id: TouchDeviceId(0), id: TouchId(id), phase, pos, force: None }
+    }
+
+    /// What a finger's way is to a browser.
+    fn swipe(to: Pos2) -> Vec<Event> {
+        let start = [button(A, true), touch(1, TouchPhase::Start, A)];
+        let moved = [Event::PointerMoved(to), touch(1, TouchPhase::Move, to)];
+        let end = [button(to, false), Event::PointerGone, touch(1, TouchPhase::End, to)];
+        [&start[..], &moved, &end].concat()
+    }
+
+    /// The passes that events come in, without the touches.
+    fn passes(events: Vec<Event>, turns: bool) -> Vec<Vec<Event>> {
+        let mut queue = Queue::default();
+        queue.extend(events);
+        let mut passes = Vec::new();
+        while queue.is_waiting() {
+            let mut pass = queue.next(|_| turns);
+            pass.retain(|event| !matches!(event, Event::Touch { .. }));
+            passes.push(pass);
+            assert!(passes.len() < 20, "it never ends: {passes:?}");
+        }
+        passes
+    }
+
+    #[test]
+    fn a_press_its_movement_and_its_release_each_get_a_pass() {
+        let moved = Event::PointerMoved;
+        let events = vec![moved(A), button(A, true), moved(RIGHT), moved(DOWN), button(DOWN, false)];
+        let expected = [vec![moved(A), button(A, true)], vec![moved(RIGHT), moved(DOWN)], vec![button(DOWN, false)]];
+        assert_eq!(passes(events, true), expected);
+    }
+
+    #[test]
+    fn a_release_where_the_pointer_has_not_been_is_a_movement_first() {
+        let moved = Event::PointerMoved;
+        let events = vec![moved(A), button(A, true), button(RIGHT, false), moved(A)];
+        let expected =
+            [vec![moved(A), button(A, true)], vec![moved(RIGHT)], vec![button(RIGHT, false)], vec![moved(A)]];
+        assert_eq!(passes(events, true), expected);
+    }
+
+    #[test]
+    fn a_finger_turns_sideways_scrolls_up_and_down_and_taps() {
+        let moved = Event::PointerMoved;
+        let press = vec![moved(A), button(A, true)];
+        let up = |at| vec![button(at, false), Event::PointerGone];
+        assert_eq!(passes(swipe(RIGHT), true), [press.clone(), vec![moved(RIGHT)], up(RIGHT)]);
+        assert_eq!(passes(swipe(A), true), [press.clone(), up(A)]);
+        // Of a finger that scrolls there is no press.
+        assert_eq!(passes(swipe(DOWN), true), [vec![moved(A), moved(DOWN)], up(DOWN)]);
+        // Where nothing turns it is a press like any other.
+        assert_eq!(passes(swipe(DOWN), false), [press, vec![moved(DOWN)], up(DOWN)]);
+    }
+
+    #[test]
+    fn two_fingers_are_no_swipe() {
+        let mut queue = Queue::default();
+        queue.extend(vec![button(A, true), touch(1, TouchPhase::Start, A)]);
+        assert!(!queue.next(|_| true).contains(&button(A, true)));
+        queue.extend(vec![touch(2, TouchPhase::Start, DOWN), Event::PointerMoved(DOWN)]);
+        assert!(queue.next(|_| true).contains(&button(A, true)));
+        assert_eq!(queue.swipe(), None);
+    }
+
+    #[test]
+    fn what_the_system_takes_away_is_no_tap_and_ends_a_drag() {
+        let mut queue = Queue::default();
+        queue.extend(vec![button(A, true), touch(1, TouchPhase::Start, A), touch(1, TouchPhase::Cancel, A)]);
+        let events = queue.next(|_| true);
+        assert!(!queue.is_waiting() && !events.iter().any(|event| matches!(event, Event::PointerButton { .. })));
+        queue.extend(vec![button(A, true), touch(1, TouchPhase::Start, A)]);
+        queue.next(|_| false);
+        queue.extend(vec![touch(1, TouchPhase::Cancel, A)]);
+        assert!(queue.next(|_| false).contains(&button(A, false)));
+    }
+}
