@@ -183,6 +183,50 @@ fn the_papers_map_is_its_mirror_image() {
     assert!(compared > 60, "only {compared}");
 }
 
+/// A robot with its cables in another order.
+fn reordered(robot: &Robot, order: &[usize]) -> Robot {
+    let cables = order.iter().map(|&i| robot.cables[i]).collect();
+    Robot::new(RobotSpec { cables, ..(**robot).clone() }).expect("the same robot")
+}
+
+/// In a symmetric pose two mirrored directions are critical at the same speed but for rounding, and so are mirrored cables.
+/// Rounding differs with the order of the cables, and with it once the answer did.
+#[test]
+fn of_mirrored_directions_the_first_is_the_worst_however_numbers_are_rounded() {
+    let directions = Directions::Worst(Directions::WORST_OF);
+    let asked = Asked::Critical { limit: LIMIT };
+    let mut compared = 0;
+    for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
+        let robot = Robot::new(RobotSpec { linearisation, ..paper_spec() }).expect("the paper's robot");
+        for row in 0..9 {
+            let low = Vec2::new(0.0, evenly(-3.0, 3.0, row, 9));
+            let map = Study::Map { grid: Grid { low, high: low, nx: 1, ny: 1 }, directions, asked };
+            // Also exchanged pairs, which make of the robot its own mirror image.
+            let answers = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 3, 0, 1], [3, 2, 1, 0], [0, 3, 1, 2]].map(|order| {
+                let (direction, verdict) = critical(&map, &reordered(&robot, &order), 0);
+                (direction, verdict.critical().map(|critical| critical.speed))
+            });
+            let (first, lowest) = answers[0];
+            for (direction, speed) in answers {
+                assert_eq!(direction, first, "{linearisation:?} at {low:?}: {answers:?}");
+                let apart = speed.zip(lowest).map_or(0.0, |(a, b)| (a - b).abs());
+                assert!(
+                    apart < 1e-7 && speed.is_some() == lowest.is_some(),
+                    "{linearisation:?} at {low:?}: {answers:?}"
+                );
+            }
+            // The mirror image is as bad, but comes later.
+            if lowest.is_some() {
+                let index = (0..16).find(|&k| compass(k, 16) == first).expect("one of them");
+                let mirrored = (24 - index) % 16;
+                assert!(index <= mirrored, "{linearisation:?} at {low:?}: {index} after {mirrored}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 10, "only {compared}");
+}
+
 #[test]
 fn the_worst_direction_is_the_lowest_of_all() {
     let robot = paper().expect("the paper's robot");

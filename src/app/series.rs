@@ -7,7 +7,7 @@ use nalgebra::Complex;
 use crate::app::studies::Known;
 use crate::compute::protocol::{PlaceAnswer, StudyChoice, VerdictAnswer};
 use crate::scenario::report::{CriticalReport, KindReport, sentence};
-use crate::stability::{Critical, Kind};
+use crate::stability::{Critical, Kind, first_lowest};
 use crate::study::campbell::Track;
 use crate::study::convergence::{self, Convergence};
 use crate::study::{Verdict, compass, evenly};
@@ -176,7 +176,8 @@ pub fn worst_direction(known: &Known) -> Option<([f64; 2], f64)> {
         Some(VerdictAnswer::Critical(critical)) => Some((direction, critical.speed)),
         _ => None,
     };
-    directions(known).into_iter().filter_map(speed).min_by(|a, b| a.1.total_cmp(&b.1))
+    let critical: Vec<([f64; 2], f64)> = directions(known).into_iter().filter_map(speed).collect();
+    first_lowest(critical.iter().map(|(_, speed)| *speed)).map(|index| critical[index])
 }
 
 /// The angle of a direction in degrees, from −180 to 180.

@@ -9,6 +9,7 @@ use crate::cli::text::{CAVEAT, critical_sentence, digits};
 use crate::cli::{Answer, Output, read_scenario};
 use crate::robot::Vec2;
 use crate::scenario::options::MOST_POINTS;
+use crate::stability::{TIE_OF_SPEEDS, first_largest, first_lowest};
 use crate::study::{Answer as Found, Asked, Directions, Grid, Status, Study, Verdict, evenly};
 
 /// Points in a row or column.
@@ -99,9 +100,13 @@ fn write_picture(
         Directions::Worst(count) => format!("in the worst of {count} directions"),
     };
     writeln!(text, "{}: critical speed in m/s, {along}\n", name.replace(char::is_control, " "))?;
-    let speeds = || rows.iter().filter_map(|row| row.critical().map(|critical| (critical.speed, row)));
-    let lowest = speeds().min_by(|a, b| a.0.total_cmp(&b.0));
-    let highest = speeds().max_by(|a, b| a.0.total_cmp(&b.0));
+    let critical: Vec<(f64, &Row)> =
+        rows.iter().filter_map(|row| row.critical().map(|critical| (critical.speed, row))).collect();
+    let speeds = critical.iter().map(|(speed, _)| *speed);
+    // Of poses that mirror each other the first one is named.
+    let lowest = first_lowest(speeds.clone()).map(|index| critical[index]);
+    let highest =
+        first_largest(speeds.clone(), TIE_OF_SPEEDS * speeds.fold(1.0, f64::max)).map(|index| critical[index]);
     let range = lowest.as_ref().zip(highest.as_ref()).map(|(low, high)| (low.0, high.0));
     let wide = grid.nx > WIDEST_TABLE;
     let cell = |row: &Row| match (&row.verdict, range) {

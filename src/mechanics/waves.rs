@@ -41,8 +41,9 @@ pub fn wave_limit(robot: &Robot, statics: &Statics, rates: &[LengthRates]) -> Op
     };
     let limits: Vec<WaveLimit> = statics.cables.iter().zip(rates).enumerate().filter_map(of_cable).collect();
     let least = limits.iter().copied().min_by(|a, b| a.speed.total_cmp(&b.speed))?;
-    let together = |limit: &&WaveLimit| limit.reeled_in && limit.speed <= least.speed * (1.0 + TOGETHER);
-    Some(WaveLimit { speed: least.speed, ..*limits.iter().find(together).unwrap_or(&least) })
+    let together = || limits.iter().filter(|limit| limit.speed <= least.speed * (1.0 + TOGETHER));
+    let first = together().find(|limit| limit.reeled_in).or_else(|| together().next());
+    Some(WaveLimit { speed: least.speed, ..*first.unwrap_or(&least) })
 }
 
 #[cfg(test)]

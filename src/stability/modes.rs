@@ -7,6 +7,7 @@
 use nalgebra::{Complex, Matrix2, Vector2};
 
 use crate::mechanics::{Chain, Element, Hub, Vibration};
+use crate::stability::{TIE_OF_SHARES, first_largest};
 
 type C64 = Complex<f64>;
 /// Two complex displacements, x and y.
@@ -46,10 +47,9 @@ pub struct Mode {
 }
 
 impl Mode {
-    /// The cable with the largest share of the kinetic energy, 0-based.
+    /// The cable with the largest share of the kinetic energy, 0-based; the first of those that have it but for rounding.
     pub fn responsible_cable(&self) -> usize {
-        let shares = self.cable_share.iter().enumerate();
-        shares.max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(i, _)| i)
+        first_largest(self.cable_share.iter().copied(), TIE_OF_SHARES).unwrap_or(0)
     }
 }
 

@@ -66,7 +66,9 @@ impl FromRest {
             let mode = mode(vibration, 0.0, eigenvalue, Polarisation::default());
             let [growth, size] = growth(vibration, &mode);
             self.decays &= growth < -NONE * size;
-            if growth > NONE * size && self.fastest.as_ref().is_none_or(|(fastest, _)| growth > *fastest) {
+            // Equal but for rounding, the first one counts.
+            let faster = self.fastest.as_ref().is_none_or(|(fastest, _)| growth > *fastest + NONE * size);
+            if growth > NONE * size && faster {
                 let cable = mode.responsible_cable();
                 self.fastest = Some((growth, Critical { speed: 0.0, eigenvalue, kind: Kind::Flutter, cable }));
             }

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::mechanics::{self, Failure, Statics};
 use crate::robot::{Motion, Robot, Vec2};
-use crate::stability::{Critical, Outcome};
+use crate::stability::{Critical, Outcome, is_lower};
 use crate::study::Local;
 
 /// The critical speed of a pose in one direction, or why there is none.
@@ -121,6 +121,10 @@ fn along(robot: &Robot, statics: Statics, direction: Vec2, limit: f64) -> (Verdi
     (verdict, local.wave_limit.map(|limit| limit.speed))
 }
 
+/// By this part of the lowest speed so far, or of 1 m/s, other directions are searched beyond it: more than a search looks
+/// around a crossing, 0.0005 m/s.
+const BEYOND: f64 = 1e-3;
+
 /// In which directions the platform moves through a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Directions {
@@ -151,7 +155,7 @@ impl Directions {
     }
 
     /// The lowest critical speed at `position` up to `limit` (m/s) with its direction, and the lowest wave limit of all
-    /// directions; the first direction where no speed is critical. Where one direction is without an answer, so is the
+    /// directions; of directions that are critical at the same speed but for rounding the first one, and the first of all where no speed is critical. Where one direction is without an answer, so is the
     /// worst.
     pub(super) fn verdict(self, robot: &Robot, position: Vec2, limit: f64) -> (Vec2, Verdict, Option<f64>) {
         let directions = self.each();
@@ -166,15 +170,17 @@ impl Directions {
             let rest = directions.iter().skip(from);
             rest.filter_map(|direction| wave_limit(robot, &statics, *direction)).min_by(f64::total_cmp)
         };
-        // A direction matters only where it is critical below the lowest speed so far.
-        let mut searched = limit;
+        // A direction matters only where it is critical below the lowest speed so far. The search goes on a little beyond:
+        // that is where mirrored directions are critical, and at its very limit rounding would decide what is found.
+        let (mut searched, mut lowest) = (limit, limit);
         for (k, &direction) in directions.iter().enumerate() {
             let (verdict, wave_limit) = along(robot, statics.clone(), direction, searched);
             waves = lower(waves, wave_limit);
             match verdict {
                 Verdict::Critical(critical) => {
-                    if worst.1.critical().is_none_or(|lowest| critical.speed < lowest.speed) {
-                        searched = critical.speed;
+                    if worst.1.critical().is_none_or(|lowest| is_lower(critical.speed, lowest.speed)) {
+                        lowest = critical.speed;
+                        searched = limit.min(lowest + BEYOND * lowest.max(1.0));
                         worst = (direction, Verdict::Critical(critical));
                     }
                 }
@@ -183,7 +189,7 @@ impl Directions {
                 unknown => return (direction, unknown, lower(waves, not_searched(k + 1))),
             }
             // Nothing is lower than a speed at which everything grows.
-            if searched <= 0.0 {
+            if lowest <= 0.0 {
                 waves = lower(waves, not_searched(k + 1));
                 break;
             }

@@ -10,6 +10,7 @@ use crate::app::meaning::Explain as _;
 use crate::app::pinned::Pinned;
 use crate::app::theme;
 use crate::compute::protocol::{ModeChoice, ModeRow};
+use crate::stability::{TIE_OF_SHARES, first_largest};
 
 /// Draws the table.
 pub fn ui(
@@ -73,9 +74,10 @@ pub fn ui(
                     (i + 1).to_string()
                 };
                 let [growth, _] = mode.eigenvalue;
-                let share = mode.cable_share.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1));
+                let shares = &mode.cable_share;
+                let share = first_largest(shares.iter().copied(), TIE_OF_SHARES).map(|cable| (cable, shares[cable]));
                 let cable = match share {
-                    Some((_, &share)) if share < mode.platform_share => {
+                    Some((_, share)) if share < mode.platform_share => {
                         format!("platform {:.0} %", 100.0 * mode.platform_share)
                     }
                     Some((cable, share)) => format!("{} ({:.0} %)", cable + 1, 100.0 * share),
