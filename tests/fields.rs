@@ -358,7 +358,9 @@ fn what_plots_are_looked_at_with_is_typed_alike() {
     app.get_by_role_and_label(Role::Button, "Campbell").click();
     app.run_steps(3);
     let label = "Highest frequency";
+    let begun = std::time::Instant::now();
     while app.query_all_by_label(label).next().is_none() {
+        assert!(begun.elapsed() < interface::PATIENCE, "no {label}");
         std::thread::sleep(std::time::Duration::from_millis(2));
         app.step();
     }
