@@ -414,3 +414,46 @@ fn an_edit_on_the_canvas_is_refused_in_the_same_words() {
     settle(&mut app);
     assert_eq!(app.state().notice(), Some("Winch 3 must not be where winch 1 is."));
 }
+
+#[test]
+fn a_drag_changes_only_what_it_moves() {
+    // Not so far from the middle that there is no equilibrium, and at a speed whose arrow fits.
+    let mut scenario = awkward();
+    scenario.motion.speed = 4.987_654_321;
+    let mut app = app_with(scenario.clone(), SIZE, Theme::Light);
+    let place = |app: &App, name: &str| app.get_by_label(name).rect().center();
+
+    let platform = place(&app, "Platform");
+    interface::drag(&mut app, platform, platform + Vec2::new(40.0, 0.0));
+    settle(&mut app);
+    let motion = app.state().scenario().motion;
+    assert!(motion.position[0] > scenario.motion.position[0] + 0.5, "{motion:?}");
+    assert_eq!(motion.position[1].to_bits(), scenario.motion.position[1].to_bits());
+    scenario.motion.position[0] = motion.position[0];
+    assert_eq!(bits(app.state().scenario()), bits(&scenario));
+
+    // The arrow is drawn longer in its own direction: faster, and not turned.
+    let (platform, tip) = (place(&app, "Platform"), place(&app, "Velocity"));
+    interface::drag(&mut app, tip, tip + (tip - platform) * 0.3);
+    settle(&mut app);
+    let motion = app.state().scenario().motion;
+    assert!(motion.speed > scenario.motion.speed + 0.5, "{motion:?}");
+    scenario.motion.speed = motion.speed;
+    assert_eq!(bits(app.state().scenario()), bits(&scenario));
+
+    // There and back again.
+    for name in ["Platform", "Velocity"] {
+        let from = place(&app, name);
+        app.hover_at(from);
+        app.step();
+        app.drag_at(from);
+        app.step();
+        for by in [Vec2::new(30.0, 25.0), Vec2::new(-20.0, 10.0), Vec2::ZERO] {
+            app.hover_at(from + by);
+            app.run_steps(2);
+        }
+        app.drop_at(from);
+        settle(&mut app);
+        assert_eq!(bits(app.state().scenario()), bits(&scenario), "{name}");
+    }
+}

@@ -35,7 +35,8 @@ pub fn ui(
     let mut scenario = document.scenario.clone();
     let motion = &mut scenario.motion;
     if let Some(grabbed) = drag(ui, &platform, view.pos_in_ui(scene.platform)) {
-        motion.position = view.pos_in_world(grabbed).map(|coordinate| roundest(coordinate, 1.0 / view.scale));
+        let first = at_first(ui, &platform, motion.position);
+        motion.position = moved(first, view.pos_in_world(grabbed), view);
     }
     if let Some(([x, y], fine)) = keys(ui, &platform) {
         let step = KEY_STEP * (scene.frame[2] - scene.frame[0]) * fine;
@@ -50,12 +51,16 @@ pub fn ui(
     let at = arrow_tip(view, scene, arrow);
     let tip = handle(ui, painter, "Velocity", at, CursorIcon::Grab);
     if let Some(grabbed) = drag(ui, &tip, at) {
+        let first = at_first(ui, &tip, (motion.speed, motion.direction));
         let from_platform = grabbed - view.pos_in_ui(scene.platform);
         let [speed, point] = arrow.speed(from_platform.length(), view.scale);
-        motion.speed = roundest(speed, point).max(0.0);
+        motion.speed = meant(first.0, speed, point).max(0.0);
         if from_platform.length() > 1.0 {
             let [x, y] = view.vec_in_world(from_platform);
-            motion.direction = [x / x.hypot(y), y / x.hypot(y)];
+            let [along, across] = [[x, y], [-y, x]].map(|[a, b]| (a * first.1[0] + b * first.1[1]) * view.scale);
+            let length = first.1[0].hypot(first.1[1]);
+            let is_first = along > 0.0 && across.abs() < 0.5 * length;
+            motion.direction = if is_first { first.1 } else { [x / x.hypot(y), y / x.hypot(y)] };
         }
     }
     if let Some(([turn, faster], fine)) = keys(ui, &tip) {
@@ -93,7 +98,7 @@ pub fn winches(
         let centre = view.pos_in_ui(cable.anchor);
         let winch = handle(ui, painter, &format!("Winch {}", i + 1), centre, CursorIcon::Grab);
         if let Some(grabbed) = drag(ui, &winch, centre) {
-            cable.anchor = view.pos_in_world(grabbed).map(|coordinate| roundest(coordinate, 1.0 / view.scale));
+            cable.anchor = moved(at_first(ui, &winch, cable.anchor), view.pos_in_world(grabbed), view);
         }
         if let Some(([x, y], fine)) = keys(ui, &winch) {
             let step = KEY_STEP * (scene.frame[2] - scene.frame[0]) * fine;
@@ -136,6 +141,25 @@ fn drag(ui: &Ui, response: &Response, centre: Pos2) -> Option<Pos2> {
     }
     let kept: Vec2 = ui.data(|data| data.get_temp(offset)).unwrap_or_default();
     Some(pointer + kept)
+}
+
+/// What a handle moves, as it was when the drag began.
+fn at_first<T: Copy + Send + Sync + 'static>(ui: &Ui, response: &Response, now: T) -> T {
+    let id = response.id.with("first");
+    if response.drag_started() {
+        ui.data_mut(|data| data.insert_temp(id, now));
+    }
+    ui.data(|data| data.get_temp(id)).unwrap_or(now)
+}
+
+/// Where a hand moves a point of the world to; a coordinate that it does not move stays as it is.
+fn moved(first: [f64; 2], to: [f64; 2], view: &View) -> [f64; 2] {
+    [0, 1].map(|i| meant(first[i], to[i], 1.0 / view.scale))
+}
+
+/// The number that a hand means that moves `first` to `to`, where a point of the screen is so much.
+fn meant(first: f64, to: f64, point: f64) -> f64 {
+    if (to - first).abs() < 0.5 * point { first } else { roundest(to, point) }
 }
 
 /// The roundest number within half a point of the screen: a hand cannot mean it more exactly.
