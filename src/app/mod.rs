@@ -30,7 +30,6 @@ mod studies;
 #[cfg(test)]
 mod tests;
 mod theme;
-#[cfg(target_arch = "wasm32")]
 mod tone;
 mod tour;
 mod windows;

@@ -20,6 +20,7 @@ use crate::app::gestures;
 use crate::app::meaning::Explain as _;
 use crate::app::theme;
 
+pub use text::rounded;
 pub use unit::Unit;
 
 /// Digits shown while nobody edits; fewer where they have no room.

@@ -1,5 +1,7 @@
 //! The tabs of plots and the mode shape's playback.
 
+use std::f64::consts::TAU;
+
 use eframe::egui::{Rect, Response, Slider, SliderClamping, Ui, Vec2};
 
 use super::{campbell, directions, eigenvalues, growth, knobs, line, mesh, modes};
@@ -9,6 +11,7 @@ use crate::app::gestures;
 use crate::app::meaning::Explain as _;
 use crate::app::number::{self, Control, Unit};
 use crate::app::state::{Playback, Plot, UiState};
+use crate::app::tone;
 use crate::compute::protocol::{ModeChoice, Which};
 use crate::robot::Linearisation;
 
@@ -66,7 +69,7 @@ fn playback(
         || "No mode shape".to_owned(),
         |shape| {
             let which = if shape.is_critical { "Mode that becomes unstable" } else { "Chosen mode" };
-            let frequency = shape.eigenvalue[1].abs() / std::f64::consts::TAU;
+            let frequency = shape.eigenvalue[1].abs() / TAU;
             format!("{which}: {} at {:.2} m/s", settings.frequency_text(frequency, 3), shape.speed)
         },
     );
@@ -117,8 +120,8 @@ fn playback(
         let meaning = "Seconds of the robot per second of the screen";
         number::slider(ui, &control, meaning, &mut playback.slow_motion, [0.02, 2.0]);
         if cfg!(target_arch = "wasm32") {
-            let text = "The mode's frequency as a tone, eight octaves higher";
-            ui.toggle_value(&mut playback.sound, "Sound").explained(text);
+            let frequency = answers.shape().map(|shape| shape.eigenvalue[1].abs() / TAU);
+            ui.toggle_value(&mut playback.sound, "Sound").explained(&tone::text(frequency, settings));
         }
     });
 }
