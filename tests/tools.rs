@@ -179,9 +179,38 @@ fn what_is_no_scenario_is_refused_with_the_reason_and_the_robot_stays() {
         assert!(notice.contains(reason), "{notice}");
         assert_eq!(*app.state().scenario(), paper());
     }
-    app.get_by_label("Dismiss").click();
+    // All are there to be read, the newest three first.
+    for left in [3, 3, 2, 1] {
+        assert_eq!(app.get_all_by_label("Dismiss").count(), left);
+        app.get_all_by_label("Dismiss").next().expect("one").click();
+        app.run_steps(3);
+    }
+    assert_eq!(app.state().notice(), None);
+}
+
+#[test]
+fn a_fault_stays_until_the_next_thing_succeeds() {
+    let mut app = app();
+    let said = |app: &App, text: &str| app.query_by_label_contains(text).is_some();
+    // Two at once: both are told.
+    let (first, second) = (OnDisk::new("first.json", b"no JSON"), OnDisk::new("second.json", b"Gr\xf6\xdfe"));
+    app.input_mut().dropped_files.push(Arc::new(first.clone()));
+    second.drop_on(&mut app);
+    interface::wait(&mut app, "the second", |app| app.notice().is_some_and(|notice| notice.contains("second.json")));
+    app.run_steps(2);
+    assert!(said(&app, "text that is not JSON") && said(&app, "second.json is not UTF-8"));
+    choose(&mut app, "Edit", "Copy the table of modes");
+    assert!(!said(&app, "not JSON") && !said(&app, "second.json"), "{:?}", app.state().notice());
+    assert_eq!(app.state().notice(), Some("The table of modes is on the clipboard."));
+    second.drop_on(&mut app);
+    interface::wait(&mut app, "the second", |app| app.notice().is_some_and(|notice| notice.contains("second.json")));
+    app.run_steps(2);
+    assert!(!said(&app, "on the clipboard"), "what was done is old");
+    app.get_by_role_and_label(Role::Button, "Pin").click();
     app.run_steps(3);
     assert_eq!(app.state().notice(), None);
+    first.remove();
+    second.remove();
 }
 
 #[test]

@@ -7,9 +7,17 @@
     const failure = document.getElementById("tautline-error");
     let started = false;
 
+    // Whoever has this page in a frame may be typing elsewhere: nothing here can take the focus until the app has started,
+    // which else takes it then. A click gives it, as to everything.
+    document.body.inert = window.self !== window.top;
+
+    const copy = document.getElementById("tautline-copy");
+    document.getElementById("tautline-copy-close").addEventListener("click", () => copy.close());
+
     // detail: what was thrown, for a report; people who cannot use it need not open it.
     function fail(title, advice, detail) {
         loading.hidden = true;
+        document.body.inert = false;
         const add = (parent, name, text) => {
             const element = document.createElement(name);
             element.textContent = text;
@@ -34,9 +42,12 @@
         try {
             return JSON.stringify(window.tautline.scenario(), null, 2);
         } catch { /* it does not answer */ }
-        try {
-            return localStorage.getItem("tautline-scenario");
-        } catch { /* storage is blocked */ }
+        for (const storage of ["sessionStorage", "localStorage"]) {
+            try {
+                const scenario = window[storage].getItem("tautline-scenario");
+                if (scenario) return scenario;
+            } catch { /* storage is blocked */ }
+        }
         return null;
     }
 
@@ -57,7 +68,7 @@
         const file = add("a", "Save the robot as a file");
         file.href = URL.createObjectURL(new Blob([scenario], { type: "application/json" }));
         file.download = "tautline.json";
-        again.focus();
+        if (document.hasFocus()) again.focus(); // not out of a frame whose page is used elsewhere
     }
 
     const reload = "Please reload the page. If that does not help, try a current version of Chrome, Edge, Firefox or Safari.";
@@ -78,6 +89,7 @@
     const observer = new MutationObserver(() => {
         started = true;
         observer.disconnect();
+        document.body.inert = false;
         loading.hidden = true;
         failure.hidden = true; // whatever it was, it did not keep the app from starting
         keepForOffline(); // not before, or its downloads would compete with the app's

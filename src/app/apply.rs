@@ -3,8 +3,10 @@
 use eframe::egui::Context;
 
 use super::export::{self, Content};
+use super::files::Clip;
+use super::notices::About;
 use super::state::Document;
-use super::{Command, Notice, Tautline, fields, number};
+use super::{Command, Tautline, fields, number};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
 use crate::scenario::{Scenario, file, link};
@@ -23,15 +25,13 @@ impl Tautline {
             },
             Command::Share => {
                 let link = format!("{}{}{}", address(), link::MARK, link::encode(&self.present.document.scenario));
-                let text = if address().is_empty() {
-                    format!(
-                        "On the clipboard, to be pasted here or put behind the address of a page with Tautline: {link}"
-                    )
+                let use_of_it = if address().is_empty() {
+                    ", to be pasted here or put behind the address of a page with Tautline"
                 } else {
-                    format!("The link is on the clipboard: {link}")
+                    ""
                 };
-                context.copy_text(link);
-                self.tell(text);
+                let more = format!("{use_of_it}: {link}");
+                self.files.copy(context, Clip { what: "The link", text: link, more });
             }
             Command::Undo => {
                 if let Some(before) = self.history.undo(&self.present.document) {
@@ -50,42 +50,47 @@ impl Tautline {
                 if on && self.present.answers.failed().is_some() {
                     self.pinning = false;
                     self.complain("A pose without an answer cannot be pinned.".into());
+                } else {
+                    self.notices.succeed(About::Action);
                 }
             }
             Command::Open => self.files.open(context),
             Command::Save(content) => self.save_content(context, content),
             Command::CopyModes => match export::plot(super::state::Plot::Modes, self.facts()) {
                 Some(table) => {
-                    context.copy_text(table.tsv());
-                    self.tell("The table of modes is on the clipboard.".into());
+                    self.files.copy(context, Clip { what: "The table of modes", text: table.tsv(), more: ".".into() });
                 }
                 None => self.complain("There are no modes to copy at this pose.".into()),
             },
             Command::ChooseMode(choice) => {
                 self.state.mode = choice;
                 self.submit(&Request::Shape(choice));
+                self.notices.succeed(About::Action);
             }
             Command::Check(index) => self.submit(&Request::Check(index)),
             Command::StopStudy(topic) => {
                 let order = self.present.studies.stop(topic);
                 self.carry_out(order);
+                self.notices.succeed(About::Action);
             }
             Command::ResumeStudy(topic) => {
                 let order = self.present.studies.resume(topic);
                 self.carry_out(order);
+                self.notices.succeed(About::Action);
             }
-            Command::Tell(text) => self.tell(text),
+            Command::Done(text) => {
+                self.notices.succeed(About::Action);
+                if let Some(text) = text {
+                    self.notices.tell(text);
+                }
+            }
             Command::Complain(text) => self.complain(text),
-            Command::DismissNotice => self.notice = None,
+            Command::DismissNotice(index) => self.notices.dismiss(index),
         }
     }
 
-    fn tell(&mut self, text: String) {
-        self.notice = Some(Notice { text, fault: false });
-    }
-
     pub(super) fn complain(&mut self, text: String) {
-        self.notice = Some(Notice { text, fault: true });
+        self.notices.complain(About::Action, text);
     }
 
     /// Starts from a scenario, as a step of its own.
@@ -98,10 +103,10 @@ impl Tautline {
     /// Takes a document over, where it is physical; else says why not and keeps the last good one.
     fn edit(&mut self, document: Document) {
         if let Err(reason) = fields::check(&document.scenario, self.state.settings) {
-            self.complain(sentence(&reason));
+            self.notices.complain(About::Robot, sentence(&reason));
             return;
         }
-        self.notice = None;
+        self.notices.succeed(About::Robot);
         let changed = document.scenario != self.present.document.scenario;
         self.present.document = document;
         if changed {

@@ -37,10 +37,17 @@ pub enum Command {
     StopStudy(Topic),
     /// Go on with a study that was stopped.
     ResumeStudy(Topic),
-    /// Tell something that is not a fault.
-    Tell(String),
+    /// What took its time has succeeded: tell it, where there is something to tell.
+    Done(Option<String>),
     /// Tell what went wrong.
     Complain(String),
-    /// Take the notice off the screen.
-    DismissNotice,
+    /// Take this notice off the screen.
+    DismissNotice(usize),
+}
+
+impl Command {
+    /// Whether it puts something on the clipboard.
+    pub fn is_copy(&self) -> bool {
+        matches!(self, Self::Share | Self::CopyModes)
+    }
 }

@@ -12,19 +12,31 @@ const LEAST: [f32; 2] = [340.0, 280.0];
 /// So much is left to the canvas between them, as long as they can do with less.
 const CANVAS: f32 = 320.0;
 
+/// More lines at the foot of the window would cover the rest of it.
+const MOST_NOTICES: usize = 3;
+
 impl Tautline {
     pub(super) fn notice_bar(&mut self, ui: &mut Ui) {
-        let Some(notice) = &self.notice else { return };
+        let lines = self.notices.lines();
+        if lines.is_empty() {
+            return;
+        }
         Panel::bottom("notice").show(ui, |ui| {
-            ui.horizontal_wrapped(|ui| {
-                if notice.fault {
-                    ui.colored_label(theme::warning(ui.visuals()), "▲");
-                }
-                ui.label(&notice.text);
-                if ui.small_button("Dismiss").clicked() {
-                    self.commands.push(Command::DismissNotice);
-                }
-            });
+            let older = lines.len().saturating_sub(MOST_NOTICES);
+            if older > 0 {
+                ui.weak(format!("{older} older ones come up when these are dismissed."));
+            }
+            for (index, line) in lines.iter().enumerate().skip(older) {
+                ui.horizontal_wrapped(|ui| {
+                    if line.fault.is_some() {
+                        ui.colored_label(theme::warning(ui.visuals()), "▲");
+                    }
+                    ui.label(&line.text);
+                    if ui.small_button("Dismiss").clicked() {
+                        self.commands.push(Command::DismissNotice(index));
+                    }
+                });
+            }
         });
     }
 

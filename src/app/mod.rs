@@ -18,6 +18,7 @@ mod meaning;
 mod menu;
 #[cfg(target_arch = "wasm32")]
 mod mirror;
+mod notices;
 mod number;
 #[cfg(target_arch = "wasm32")]
 mod page;
@@ -36,13 +37,14 @@ mod windows;
 
 use std::time::Duration;
 
-use eframe::egui::{self, Rect, Ui};
+use eframe::egui::{self, Event, Rect, Ui};
 
 use answers::{Answers, CriticalState};
 use command::Command;
 use files::Files;
 use history::History;
-use persist::Keeper;
+use notices::{About, Notices};
+use persist::{Keeper, Keeping};
 use pinned::Pinned;
 use state::{Document, Settings, UiState};
 use studies::{Joined, Order, Studies};
@@ -79,6 +81,8 @@ pub struct Tautline {
     pool: Pool,
     files: Files,
     keeper: Keeper,
+    /// Where a browser keeps what belongs to this tab alone.
+    own: Option<Box<dyn eframe::Storage>>,
     /// The settings that have been carried out; at first those of the system.
     applied: Settings,
     /// Whether the plots were drawn in the last frame; a narrow screen may not show them.
@@ -88,7 +92,7 @@ pub struct Tautline {
     canvas: canvas::Runtime,
     windows: windows::Runtime,
     revision: Revision,
-    notice: Option<Notice>,
+    notices: Notices,
     commands: Vec<Command>,
     #[cfg(target_arch = "wasm32")]
     page: page::Page,
@@ -146,14 +150,6 @@ impl Default for Places {
     }
 }
 
-/// A line for the user.
-#[derive(Clone, Debug)]
-struct Notice {
-    text: String,
-    /// Something went wrong, or was refused.
-    fault: bool,
-}
-
 /// What is on show at the start.
 #[derive(Clone, Debug, Default)]
 pub struct Start {
@@ -179,7 +175,8 @@ pub struct OnShow<'a> {
 impl Tautline {
     /// The application. Where it is not told what to show, it shows what it showed when it ended, else the paper's robot.
     pub fn new(context: &eframe::CreationContext<'_>, start: Start) -> Self {
-        let storage = context.storage;
+        let own = persist::own();
+        let storages: Vec<&dyn eframe::Storage> = own.as_deref().into_iter().chain(context.storage).collect();
         let context = &context.egui_ctx;
         theme::install_fonts(context);
         gestures::install(context);
@@ -188,20 +185,24 @@ impl Tautline {
         let mut pool = Pool::new(move || wake_for_studies.request_repaint());
         pool.hold(true);
         pool.prepare();
-        let last = storage.and_then(persist::document);
+        let last = persist::document(&storages);
+        let state = persist::state(&storages).unwrap_or_default();
         let first = || presets::PRESETS[0].scenario();
-        let (linked, notice) = match start.link.map(|link| apply::read(&link)) {
-            Some(Ok(scenario)) => (Some(scenario), None),
-            Some(Err(text)) => (Some(first()), Some(Notice { text, fault: true })),
-            None => (None, None),
-        };
+        let mut notices = Notices::default();
+        let linked = start.link.map(|link| {
+            apply::read(&link).unwrap_or_else(|text| {
+                notices.complain(About::Action, text);
+                first()
+            })
+        });
         let opened = linked.or(start.scenario).map(Document::opened);
         let document = opened.or_else(|| last.clone()).unwrap_or_else(|| Document::opened(first()));
         let mut history = History::new(last.as_ref().unwrap_or(&document));
         // What was there the last time comes back with undo.
         history.step(&document);
         let mut app = Self {
-            keeper: Keeper::new(last),
+            keeper: Keeper::new(&storages),
+            own,
             present: Present {
                 document,
                 answers: Answers::default(),
@@ -210,20 +211,20 @@ impl Tautline {
                 pinned: None,
             },
             history,
-            state: storage.and_then(persist::state).unwrap_or_default(),
+            state,
             context: context.clone(),
             compute: None,
             losses: 0,
             pinning: false,
             pool,
-            files: Files::default(),
+            files: Files::new(context),
             applied: Settings::default(),
             plots_open: false,
             places: Places::default(),
             canvas: canvas::Runtime::default(),
             windows: windows::Runtime::default(),
             revision: 0,
-            notice,
+            notices,
             commands: Vec::new(),
             #[cfg(target_arch = "wasm32")]
             page: page::Page::new(context),
@@ -250,9 +251,9 @@ impl Tautline {
         self.present.answers.complete().map(|(report, revision, current)| OnShow { report, revision, current })
     }
 
-    /// The message on the screen, such as that input was refused.
+    /// The newest message on the screen, such as that input was refused.
     pub fn notice(&self) -> Option<&str> {
-        self.notice.as_ref().map(|notice| notice.text.as_str())
+        self.notices.lines().last().map(|notice| notice.text.as_str())
     }
 
     /// [Re λ, Im λ] of the mode whose shape is on the canvas, in 1/s.
@@ -417,18 +418,24 @@ impl Tautline {
 
     /// Writes down what is to survive a restart.
     fn keep(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
-        if let Some(storage) = frame.storage_mut()
-            && let Some(wait) = self.keeper.keep(storage, &self.present.document)
-        {
+        // Coming back to a window makes it the one that was used last.
+        if context.input(|input| input.events.contains(&Event::WindowFocused(true))) {
+            self.keeper.renew();
+        }
+        let shared = frame.storage_mut().map(|storage| -> &mut dyn eframe::Storage { storage });
+        let mut storages = persist::storages(&mut self.own, shared);
+        if let Some(wait) = self.keeper.keep(&mut storages, &self.present.document) {
             context.request_repaint_after(wait);
         }
-        // Not in the middle of a drag, whose next step would take it off the screen.
-        if !context.input(|input| input.pointer.any_down()) && self.keeper.is_newly_refused() {
-            self.complain(
+        match self.keeper.news() {
+            Some(Keeping::Refused) => self.notices.complain(
+                About::Storage,
                 "What you do here is not kept when this is closed: its storage is full or blocked. Save the scenario as \
                  a file, or share it as a link."
                     .into(),
-            );
+            ),
+            Some(Keeping::Kept) => self.notices.succeed(About::Storage),
+            None => {}
         }
     }
 }
@@ -439,6 +446,7 @@ impl eframe::App for Tautline {
         self.commands.extend(self.files.poll(context));
         #[cfg(target_arch = "wasm32")]
         self.commands.extend(self.page.news());
+        self.notices.drag(context.input(|input| input.pointer.any_down()));
         for command in std::mem::take(&mut self.commands) {
             self.apply(context, command);
         }
@@ -467,8 +475,8 @@ impl eframe::App for Tautline {
         {
             let facts = self.present.facts(self.state.settings);
             self.page.publish(facts, frame.info().cpu_usage);
-            let notice = self.notice.as_ref().map(|notice| notice.text.clone());
-            let notice = number::message(context).or(notice);
+            let lines: Vec<&str> = self.notices.lines().iter().map(|line| line.text.as_str()).collect();
+            let notice = number::message(context).or_else(|| (!lines.is_empty()).then(|| lines.join(" ")));
             self.page.tell(notice.or_else(|| tour::text(&self.state)).or_else(|| self.windows.text(&self.state)));
         }
     }
@@ -485,6 +493,10 @@ impl eframe::App for Tautline {
         windows::ui(ui.ctx(), &mut self.state, &mut self.windows, &mut self.commands);
         files::announce_drop(ui.ctx());
         tour::ui(ui.ctx(), &mut self.state, &self.places);
+        // A browser lets a page write to the clipboard only while it handles the click that asks for it.
+        for command in self.commands.extract_if(.., |command| command.is_copy()).collect::<Vec<_>>() {
+            self.apply(ui.ctx(), command);
+        }
         // Commands are carried out before the next frame; without one nothing would be seen of them.
         if !self.commands.is_empty() {
             ui.ctx().request_repaint();
@@ -492,7 +504,7 @@ impl eframe::App for Tautline {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        persist::keep_state(storage, &self.state);
+        persist::keep_state(&mut persist::storages(&mut self.own, Some(storage)), &self.state);
     }
 
     fn auto_save_interval(&self) -> Duration {

@@ -74,6 +74,31 @@ pub fn take_kept() -> Option<Scenario> {
     Scenario::from_json(&kept).ok().filter(|scenario| scenario.to_robot().is_ok())
 }
 
+/// What the browser keeps for this tab alone, where it keeps anything.
+pub fn own_storage() -> Option<Box<dyn eframe::Storage>> {
+    let storage = web_sys::window()?.session_storage().ok()??;
+    Some(Box::new(Own(storage)))
+}
+
+struct Own(web_sys::Storage);
+
+impl eframe::Storage for Own {
+    fn get_string(&self, key: &str) -> Option<String> {
+        self.0.get_item(key).ok()?
+    }
+
+    fn set_string(&mut self, key: &str, value: String) {
+        // One that is full is found out by reading.
+        let _ = self.0.set_item(key, &value);
+    }
+
+    fn remove_string(&mut self, key: &str) {
+        let _ = self.0.remove_item(key);
+    }
+
+    fn flush(&mut self) {}
+}
+
 impl Page {
     /// Sets `window.tautline`.
     pub fn new(context: &egui::Context) -> Self {

@@ -14,23 +14,56 @@ const STATE: &str = "tautline-state";
 /// While it changes, the scenario is written this often. A browser takes it without a file.
 const PAUSE: Duration = Duration::from_millis(if cfg!(target_arch = "wasm32") { 100 } else { 500 });
 
+/// Where a browser keeps what belongs to this tab alone, as long as it is open, also when it is loaded again.
+pub fn own() -> Option<Box<dyn Storage>> {
+    #[cfg(target_arch = "wasm32")]
+    return super::page::own_storage();
+    #[cfg(not(target_arch = "wasm32"))]
+    None
+}
+
+/// All storages, in the order in which they are read: this tab's own, then the one that all share, which a new tab begins
+/// with. Both are written to.
+pub fn storages<'a>(
+    own: &'a mut Option<Box<dyn Storage>>,
+    shared: Option<&'a mut dyn Storage>,
+) -> Vec<&'a mut dyn Storage> {
+    let own = own.as_deref_mut().map(|own| -> &mut dyn Storage { own });
+    own.into_iter().chain(shared).collect()
+}
+
 /// The document that was on show last, where there is one that can still be read.
-pub fn document(storage: &dyn Storage) -> Option<Document> {
+pub fn document(storages: &[&dyn Storage]) -> Option<Document> {
+    storages.iter().find_map(|storage| document_in(*storage))
+}
+
+fn document_in(storage: &dyn Storage) -> Option<Document> {
     let read = |key| Scenario::from_json(&storage.get_string(key)?).ok();
     let scenario = read(SCENARIO)?;
     Some(Document { original: read(ORIGINAL).unwrap_or_else(|| scenario.clone()), scenario })
 }
 
 /// How it was looked at.
-pub fn state(storage: &dyn Storage) -> Option<UiState> {
-    serde_json::from_str(&storage.get_string(STATE)?).ok()
+pub fn state(storages: &[&dyn Storage]) -> Option<UiState> {
+    storages.iter().find_map(|storage| serde_json::from_str(&storage.get_string(STATE)?).ok())
 }
 
 /// Writes down how things are looked at.
-pub fn keep_state(storage: &mut dyn Storage, state: &UiState) {
+pub fn keep_state(storages: &mut [&mut dyn Storage], state: &UiState) {
     if let Ok(text) = serde_json::to_string(state) {
-        storage.set_string(STATE, text);
+        for storage in storages {
+            storage.set_string(STATE, text.clone());
+        }
     }
+}
+
+/// Whether what is done is written down where the next start finds it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Keeping {
+    /// It is.
+    Kept,
+    /// The storage is full or blocked.
+    Refused,
 }
 
 /// Writes the document down soon after each change.
@@ -38,40 +71,51 @@ pub fn keep_state(storage: &mut dyn Storage, state: &UiState) {
 pub struct Keeper {
     written: Option<Document>,
     at: Instant,
-    /// The storage has not taken it; and whether that was told.
-    refused: bool,
-    told: bool,
+    now: Keeping,
+    told: Keeping,
 }
 
 impl Keeper {
-    /// Where this document is written down already.
-    pub fn new(written: Option<Document>) -> Self {
-        Self { written, at: Instant::now(), refused: false, told: false }
+    /// Where these storages hold what they do. A tab that holds nothing of its own yet is written to at once: what it
+    /// has begun with may be changed by another one.
+    pub fn new(storages: &[&dyn Storage]) -> Self {
+        let written = storages.first().and_then(|storage| document_in(*storage));
+        Self { written, at: Instant::now(), now: Keeping::Kept, told: Keeping::Kept }
+    }
+
+    /// Has the document written down again, though it has not changed: another tab may have written since.
+    pub fn renew(&mut self) {
+        self.written = None;
     }
 
     /// Writes the document down where that is due; else says when it will be.
-    pub fn keep(&mut self, storage: &mut dyn Storage, document: &Document) -> Option<Duration> {
+    pub fn keep(&mut self, storages: &mut [&mut dyn Storage], document: &Document) -> Option<Duration> {
         if self.written.as_ref() == Some(document) {
             return None;
         }
+        // Only the last one is still there when the tab is closed.
+        let lasting = storages.len().checked_sub(1)?;
         let since = self.at.elapsed();
         if since < PAUSE {
             return Some(PAUSE.saturating_sub(since));
         }
         let json = document.scenario.to_json();
-        storage.set_string(SCENARIO, json.clone());
-        storage.set_string(ORIGINAL, document.original.to_json());
-        storage.flush();
+        for storage in &mut *storages {
+            storage.set_string(SCENARIO, json.clone());
+            storage.set_string(ORIGINAL, document.original.to_json());
+            storage.flush();
+        }
         (self.written, self.at) = (Some(document.clone()), Instant::now());
         // A storage that is full or blocked says nothing.
-        self.refused = storage.get_string(SCENARIO) != Some(json);
+        let kept = storages[lasting].get_string(SCENARIO) == Some(json);
+        self.now = if kept { Keeping::Kept } else { Keeping::Refused };
         None
     }
 
-    /// Whether the storage has begun to take nothing since the last call.
-    pub fn is_newly_refused(&mut self) -> bool {
-        let told = std::mem::replace(&mut self.told, self.refused);
-        self.refused && !told
+    /// How it is now, where that has changed since the last call.
+    pub fn news(&mut self) -> Option<Keeping> {
+        let before = std::mem::replace(&mut self.told, self.now);
+        (self.now != before).then_some(self.now)
     }
 }
 
@@ -105,19 +149,19 @@ mod tests {
     #[test]
     fn documents_and_settings_come_back_as_they_were() {
         let mut storage = Memory::default();
-        assert!(document(&storage).is_none() && state(&storage).is_none());
+        assert!(document(&[&storage]).is_none() && state(&[&storage]).is_none());
         let mut edited = Document::opened(presets::PRESETS[1].scenario());
         edited.scenario.motion.position = [0.1 + 0.2, -1.0 / 3.0];
-        let mut keeper = Keeper::new(None);
-        assert!(keeper.keep(&mut storage, &edited).is_some(), "not more often than twice a second");
+        let mut keeper = Keeper::new(&[&storage]);
+        assert!(keeper.keep(&mut [&mut storage], &edited).is_some(), "not more often than twice a second");
         std::thread::sleep(PAUSE);
-        assert_eq!(keeper.keep(&mut storage, &edited), None);
-        assert!(!keeper.is_newly_refused());
-        assert_eq!(document(&storage), Some(edited));
+        assert_eq!(keeper.keep(&mut [&mut storage], &edited), None);
+        assert_eq!(keeper.news(), None);
+        assert_eq!(document(&[&storage]), Some(edited));
         let mut looked = UiState { plot: Plot::Line, campbell_hz: 7.5, ..UiState::default() };
         looked.settings.frequency = FrequencyUnit::RadiansPerSecond;
-        keep_state(&mut storage, &looked);
-        let back = state(&storage).expect("a state");
+        keep_state(&mut [&mut storage], &looked);
+        let back = state(&[&storage]).expect("a state");
         assert_eq!((back.plot, back.campbell_hz, back.settings), (looked.plot, 7.5, looked.settings));
     }
 
@@ -144,17 +188,82 @@ mod tests {
 
     #[test]
     fn a_storage_that_takes_nothing_is_told_once_each_time() {
-        let mut storage = Full(Memory::default(), true);
-        let mut keeper = Keeper::new(None);
+        // What a tab keeps of its own is gone when it is closed.
+        let (mut own, mut storage) = (Memory::default(), Full(Memory::default(), true));
+        let mut keeper = Keeper::new(&[&own, &storage]);
         let mut document = Document::opened(presets::PRESETS[0].scenario());
-        for (step, (full, news)) in [(true, true), (true, false), (false, false), (true, true)].into_iter().enumerate()
+        let (refused, kept) = (Some(Keeping::Refused), Some(Keeping::Kept));
+        for (step, (full, news)) in
+            [(true, refused), (true, None), (false, kept), (false, None), (true, refused)].into_iter().enumerate()
         {
             storage.1 = full;
             document.scenario.gravity = step as f64;
             std::thread::sleep(PAUSE);
-            assert_eq!(keeper.keep(&mut storage, &document), None);
-            assert_eq!(keeper.is_newly_refused(), news, "step {step}");
+            assert_eq!(keeper.keep(&mut [&mut own, &mut storage], &document), None);
+            assert_eq!(keeper.news(), news, "step {step}");
         }
+    }
+
+    /// A browser's tab with its own storage, beside the one that all share.
+    struct Tab {
+        own: Memory,
+        keeper: Keeper,
+        document: Document,
+    }
+
+    impl Tab {
+        fn open(own: Memory, shared: &Memory) -> Self {
+            let document = document(&[&own, shared]);
+            let document = document.unwrap_or_else(|| Document::opened(presets::PRESETS[0].scenario()));
+            Self { keeper: Keeper::new(&[&own, shared]), own, document }
+        }
+
+        fn keep(&mut self, shared: &mut Memory) {
+            std::thread::sleep(PAUSE);
+            assert_eq!(self.keeper.keep(&mut [&mut self.own, shared], &self.document), None);
+        }
+
+        fn change(&mut self, gravity: f64, shared: &mut Memory) {
+            self.document.scenario.gravity = gravity;
+            self.keep(shared);
+        }
+
+        fn reload(&mut self, shared: &Memory) -> f64 {
+            *self = Self::open(std::mem::take(&mut self.own), shared);
+            self.document.scenario.gravity
+        }
+    }
+
+    #[test]
+    fn each_tab_keeps_its_own_robot_and_a_new_one_begins_with_the_last_one_used() {
+        let mut shared = Memory::default();
+        let mut first = Tab::open(Memory::default(), &shared);
+        first.change(1.0, &mut shared);
+        let mut second = Tab::open(Memory::default(), &shared);
+        assert_eq!(second.document, first.document, "a new tab begins with what was used last");
+        // One that nobody touches is its own as well.
+        second.keep(&mut shared);
+        first.change(2.0, &mut shared);
+        assert_eq!((first.reload(&shared), second.reload(&shared)), (2.0, 1.0));
+        second.change(3.0, &mut shared);
+        assert_eq!((first.reload(&shared), second.reload(&shared)), (2.0, 3.0));
+        assert_eq!(Tab::open(Memory::default(), &shared).document, second.document);
+        // Looked at again, without a change.
+        first.keeper.renew();
+        first.keep(&mut shared);
+        assert_eq!(Tab::open(Memory::default(), &shared).document, first.document);
+        assert_eq!((first.reload(&shared), second.reload(&shared)), (2.0, 3.0));
+    }
+
+    #[test]
+    fn each_tab_keeps_how_it_is_looked_at() {
+        let (mut first, mut second, mut shared) = (Memory::default(), Memory::default(), Memory::default());
+        let looked = |plot| UiState { plot, ..UiState::default() };
+        keep_state(&mut [&mut first, &mut shared], &looked(Plot::Line));
+        keep_state(&mut [&mut second, &mut shared], &looked(Plot::Mesh));
+        let plots = [&[&first as &dyn Storage, &shared][..], &[&second, &shared], &[&shared]];
+        let plots = plots.map(|storages| state(storages).expect("a state").plot);
+        assert_eq!(plots, [Plot::Line, Plot::Mesh, Plot::Mesh]);
     }
 
     /// What an earlier or later version has written, or nobody, is no reason not to start.
@@ -163,14 +272,14 @@ mod tests {
         let mut storage = Memory::default();
         storage.set_string(SCENARIO, "{}".into());
         storage.set_string(STATE, r#"{"plot": "Ghost"}"#.into());
-        assert!(document(&storage).is_none() && state(&storage).is_none());
+        assert!(document(&[&storage]).is_none() && state(&[&storage]).is_none());
         storage.set_string(SCENARIO, presets::PRESETS[0].scenario().to_json());
         storage.set_string(ORIGINAL, "no JSON".into());
         storage.set_string(STATE, r#"{"campbell_hz": 9.0}"#.into());
-        assert_eq!(document(&storage), Some(Document::opened(presets::PRESETS[0].scenario())));
+        assert_eq!(document(&[&storage]), Some(Document::opened(presets::PRESETS[0].scenario())));
         // Earlier versions wrote down how wide panels were made by what was in them, not by a person.
         storage.set_string(STATE, r#"{"campbell_hz": 9.0, "widths": [535.0, 340.0]}"#.into());
-        assert_eq!(state(&storage).map(|state| state.panels), Some(UiState::default().panels));
-        assert_eq!(state(&storage).map(|state| (state.campbell_hz, state.plot)), Some((9.0, Plot::default())));
+        assert_eq!(state(&[&storage]).map(|state| state.panels), Some(UiState::default().panels));
+        assert_eq!(state(&[&storage]).map(|state| (state.campbell_hz, state.plot)), Some((9.0, Plot::default())));
     }
 }

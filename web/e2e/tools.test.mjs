@@ -64,6 +64,49 @@ browserTest("a drag is undone and redone by keys, and the robot survives a reloa
     assert.deepEqual(await scenario(page), dragged);
 }, { timeout: 120_000 });
 
+browserTest("two tabs keep a robot each, and a new one begins with the last one used", async ({ open }) => {
+    const first = await open();
+    await started(first);
+    const load = async (page, gravity) => {
+        await page.evaluate((gravity) => window.tautline.load({ ...window.tautline.scenario(), gravity }), gravity);
+        await waitForScenario(page, (gravity) => window.tautline.scenario().gravity === gravity, gravity);
+        // Written down within 0.1 s (docs/testing.md).
+        await page.waitForTimeout(500);
+    };
+    const another = async () => {
+        const page = await first.context().newPage();
+        await page.goto(first.url());
+        await started(page);
+        return page;
+    };
+    const gravity = async (page) => (await scenario(page)).gravity;
+    const reload = async (page) => {
+        await page.reload();
+        await started(page);
+        return gravity(page);
+    };
+    await load(first, 1);
+    const second = await another();
+    assert.equal(await gravity(second), 1, "a new tab begins with the last one used");
+    await load(first, 2);
+    assert.equal(await reload(second), 1, "also one in which nothing was changed keeps its own");
+    await load(second, 3);
+    assert.equal(await reload(first), 2);
+    assert.equal(await reload(second), 3);
+    await load(first, 4);
+    assert.equal(await gravity(await another()), 4);
+    // Its memory may be taken away, as private windows do; then the shared one serves.
+    const blocked = await first.context().newPage();
+    await blocked.addInitScript(() => {
+        Object.defineProperty(window, "sessionStorage", { get() { throw new DOMException("blocked", "SecurityError"); } });
+    });
+    await blocked.goto(first.url());
+    await started(blocked);
+    await load(blocked, 5);
+    assert.equal(await reload(blocked), 5);
+    assert.doesNotMatch(await notice(blocked), /not kept/);
+}, { timeout: 300_000 });
+
 browserTest("a link carries the robot to another page", async ({ open }) => {
     const page = await open("", { permissions: ["clipboard-read", "clipboard-write"] });
     await started(page);
@@ -114,7 +157,7 @@ browserTest("scenario files are opened, dropped and saved", async ({ open }) => 
 
     const drop = (name, text) => page.evaluate(([name, text]) => {
         const data = new DataTransfer();
-        data.items.add(new File([text], name));
+        data.items.add(new File([typeof text === "string" ? text : new Uint8Array(text)], name));
         const target = document.getElementById("tautline-canvas");
         for (const kind of ["dragover", "drop"]) {
             target.dispatchEvent(new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true }));
@@ -122,9 +165,20 @@ browserTest("scenario files are opened, dropped and saved", async ({ open }) => 
     }, [name, text]);
     await drop("moon.json", JSON.stringify({ ...other, name: "Dropped", gravity: 1.62 }));
     await waitForScenario(page, () => window.tautline.scenario().name === "Dropped");
+    const wide = Buffer.from(`\ufeff${JSON.stringify({ ...other, name: "Größe" })}`, "utf16le");
+    await drop("windows.json", [...wide]);
+    await waitForScenario(page, () => window.tautline.scenario().name === "Größe");
+    await drop("latin.json", [...Buffer.from('{ "name": "Größe" }', "latin1")]);
+    await page.waitForFunction(() => document.getElementById("tautline-notice").textContent.includes("latin.json is not UTF-8: the byte 0xF6"));
+    // Sizes are asked before anything is read.
+    await page.evaluate(() => { Blob.prototype.arrayBuffer = () => Promise.reject(new Error("was read")); });
+    await drop("film.json", " ".repeat(1_000_001));
+    await page.waitForFunction(() => document.getElementById("tautline-notice").textContent.includes("film.json is larger than 1 MB"));
+    await page.reload();
+    await started(page);
     await drop("bad.json", JSON.stringify({ ...other, platform: { mass: -1 } }));
     await page.waitForFunction(() => document.getElementById("tautline-notice").textContent.includes("platform.mass"));
-    assert.equal((await scenario(page)).name, "Dropped", "the last good robot stays");
+    assert.equal((await scenario(page)).name, "Größe", "the last good robot stays");
 }, { timeout: 120_000 });
 
 browserTest("numbers and pictures are saved", async ({ open }) => {

@@ -21,10 +21,20 @@ pub struct Files {
     receiver: Receiver<Command>,
 }
 
-impl Default for Files {
-    fn default() -> Self {
-        let (sender, receiver) = channel();
-        Self { sender, receiver }
+/// Something for the clipboard.
+#[derive(Clone, Debug)]
+pub struct Clip {
+    /// What it is, as a sentence begins with it.
+    pub what: &'static str,
+    /// The text itself.
+    pub text: String,
+    /// What is added to "… is on the clipboard" once it is there.
+    pub more: String,
+}
+
+impl Clip {
+    fn done(&self) -> String {
+        format!("{} is on the clipboard{}", self.what, self.more)
     }
 }
 
@@ -45,8 +55,7 @@ impl Hand {
 
     fn saved(&self, name: &str, outcome: Result<Option<String>, String>) {
         match outcome {
-            Ok(Some(place)) => self.command(Command::Tell(format!("Saved {place}."))),
-            Ok(None) => {}
+            Ok(place) => self.command(Command::Done(place.map(|place| format!("Saved {place}.")))),
             Err(reason) => self.command(Command::Complain(format!("{name} could not be saved: {reason}"))),
         }
     }
@@ -59,6 +68,14 @@ impl Hand {
 }
 
 impl Files {
+    /// Nothing is read yet.
+    pub fn new(context: &Context) -> Self {
+        let (sender, receiver) = channel();
+        let files = Self { sender, receiver };
+        system::prepare(&files.hand(context));
+        files
+    }
+
     fn hand(&self, context: &Context) -> Hand {
         Hand { sender: self.sender.clone(), context: context.clone() }
     }
@@ -71,6 +88,12 @@ impl Files {
     /// Saves `bytes` where the user says; a browser's downloads go under `name`.
     pub fn save(&self, context: &Context, name: &str, bytes: Vec<u8>) {
         system::save(self.hand(context), name, bytes);
+    }
+
+    /// Puts a text on the clipboard, and tells it once it is there. Where a browser does not let the page do that, the
+    /// text is shown to be copied by hand.
+    pub fn copy(&self, context: &Context, clip: Clip) {
+        system::copy(self.hand(context), clip);
     }
 
     /// Saves the part of the window within `rect` as a PNG, once the window has been drawn again.

@@ -7,8 +7,20 @@ use std::thread;
 use eframe::egui::DroppedFileHandle;
 use rfd::AsyncFileDialog;
 
-use super::Hand;
+use super::{Clip, Hand};
+use crate::app::command::Command;
 use crate::scenario::file;
+
+/// Nothing needs to be.
+pub(super) fn prepare(_: &Hand) {}
+
+/// The system's clipboard takes what it is given.
+#[expect(clippy::needless_pass_by_value)] // As in the browser, which answers after the call.
+pub(super) fn copy(hand: Hand, clip: Clip) {
+    let done = clip.done();
+    hand.context.copy_text(clip.text);
+    hand.command(Command::Done(Some(done)));
+}
 
 fn name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()

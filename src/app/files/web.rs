@@ -1,11 +1,14 @@
-//! The browser's file dialog and its downloads.
+//! The browser's file dialog, its downloads and its clipboard.
 
-use eframe::egui::DroppedFileHandle;
-use js_sys::{Array, Uint8Array};
+use std::sync::mpsc::Sender;
+
+use eframe::egui::{Context, DroppedFileHandle, FullOutput, Key, KeyboardShortcut, Modifiers, OutputCommand, Plugin};
+use js_sys::{Array, Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 
-use super::Hand;
+use super::{Clip, Hand};
+use crate::app::command::Command;
 use crate::scenario::file::{self, FileError};
 
 fn element<T: JsCast>(name: &str) -> Option<T> {
@@ -65,4 +68,84 @@ fn download(file: &str, bytes: &[u8]) -> Result<(), JsValue> {
     link.set_download(file);
     link.click();
     web_sys::Url::revoke_object_url(&address)
+}
+
+/// Has the texts that are copied out of labels and fields go the same way as the others. The drawing library's own way
+/// drops them without a word where the browser refuses.
+pub(super) fn prepare(hand: &Hand) {
+    hand.context.add_plugin(Copies(hand.sender.clone()));
+}
+
+/// Takes the texts for the clipboard out of what the drawing library puts out.
+struct Copies(Sender<Command>);
+
+impl Plugin for Copies {
+    fn debug_name(&self) -> &'static str {
+        "clipboard"
+    }
+
+    fn output_hook(&mut self, context: &Context, output: &mut FullOutput) {
+        output.platform_output.commands.retain(|command| {
+            let OutputCommand::CopyText(text) = command else { return true };
+            let hand = Hand { sender: self.0.clone(), context: context.clone() };
+            put(hand, "The text", text.clone(), None);
+            false
+        });
+    }
+}
+
+pub(super) fn copy(hand: Hand, clip: Clip) {
+    let done = clip.done();
+    put(hand, clip.what, clip.text, Some(done));
+}
+
+/// Puts a text on the clipboard, and tells that it is `done` once the browser says so.
+fn put(hand: Hand, what: &'static str, text: String, done: Option<String>) {
+    let Some(clipboard) = clipboard() else {
+        return by_hand(&hand, what, &text, "the browser has no clipboard for a page that did not come over https");
+    };
+    // Begun at once: browsers allow it only while they handle a click.
+    let written = clipboard.write_text(&text);
+    spawn_local(async move {
+        match JsFuture::from(written).await {
+            Ok(_) => done.into_iter().for_each(|done| hand.command(Command::Done(Some(done)))),
+            Err(error) => {
+                let reason = reason(&error);
+                // Chromium begins with the names of functions.
+                let reason = reason.rsplit("': ").next().unwrap_or(&reason).trim_end_matches('.');
+                by_hand(&hand, what, &text, &format!("the browser does not allow it here ({reason})"));
+            }
+        }
+    });
+}
+
+/// Browsers have none for pages that came over plain http; the bindings take it for granted.
+fn clipboard() -> Option<web_sys::Clipboard> {
+    let navigator = web_sys::window()?.navigator();
+    let clipboard = Reflect::get(&navigator, &"clipboard".into()).ok()?;
+    (!clipboard.is_undefined()).then(|| clipboard.unchecked_into())
+}
+
+/// Shows a text to be copied by hand, and why. Its field is the browser's own, for what is selected there can be copied
+/// everywhere.
+fn by_hand(hand: &Hand, what: &str, text: &str, why: &str) {
+    let why = format!("{what} could not be put on the clipboard: {why}.");
+    let keys = hand.context.format_shortcut(&KeyboardShortcut::new(Modifiers::COMMAND, Key::C));
+    if show(&format!("{why} It is selected here, to be copied by hand ({keys})."), text).is_none() {
+        hand.command(Command::Complain(format!("{why} To be copied by hand: {text}")));
+    }
+}
+
+fn show(why: &str, text: &str) -> Option<()> {
+    let document = web_sys::window()?.document()?;
+    document.get_element_by_id("tautline-copy-why")?.set_text_content(Some(why));
+    let field: web_sys::HtmlTextAreaElement = document.get_element_by_id("tautline-copy-text")?.dyn_into().ok()?;
+    field.set_value(text);
+    let dialog: web_sys::HtmlDialogElement = document.get_element_by_id("tautline-copy")?.dyn_into().ok()?;
+    if !dialog.open() {
+        dialog.show_modal().ok()?;
+    }
+    field.focus().ok()?;
+    field.select();
+    Some(())
 }

@@ -121,7 +121,7 @@ fn playback(
         number::slider(ui, &control, meaning, &mut playback.slow_motion, [0.02, 2.0]);
         if cfg!(target_arch = "wasm32") {
             let frequency = answers.shape().map(|shape| shape.eigenvalue[1].abs() / TAU);
-            ui.toggle_value(&mut playback.sound, "Sound").explained(&tone::text(frequency, settings));
+            ui.toggle_value(&mut playback.sound, "Sound").explained(tone::text(frequency, settings));
         }
     });
 }
