@@ -116,6 +116,35 @@ browserTest("a typed Young's modulus changes the answer", async ({ open }) => {
     close(after.analysis.critical.speed, commandLine(after.scenario).critical.speed, 1e-6, "page against command line");
 });
 
+browserTest("what a field refuses is told to screen readers, and Esc takes it back", async ({ open }) => {
+    const page = await open();
+    await waitForStart(page);
+    const before = await onShow(page);
+    await page.mouse.click(287, 250);
+    await page.keyboard.press("Control+A");
+    await page.keyboard.type("12 kg");
+    await page.keyboard.press("Enter");
+    const told = page.locator("#tautline-notice");
+    await told.filter({ hasText: "E is a stress; kg is a mass" }).waitFor({ state: "attached" });
+    await screenshot(page, "app refused number");
+    await page.keyboard.press("Escape");
+    await page.waitForFunction(() => document.getElementById("tautline-notice").textContent === "");
+    // What is typed after that, and taken back, leaves no trace either.
+    await page.mouse.click(287, 250);
+    await page.keyboard.press("Control+A");
+    await page.keyboard.type("0,2 GPa");
+    await page.keyboard.press("Escape");
+    await page.waitForTimeout(500);
+    assert.deepEqual((await onShow(page)).scenario, before.scenario);
+    // With a decimal comma and another unit, as it is meant.
+    await page.mouse.click(287, 250);
+    await page.keyboard.press("Control+A");
+    await page.keyboard.type("0,2 GPa");
+    await page.keyboard.press("Enter");
+    const after = await onShow(page, (a) => a.revision > before.analysis.revision);
+    assert.equal(after.scenario.cable.youngs_modulus, 200e6);
+});
+
 browserTest("scripts load scenarios, and hear why one is refused", async ({ open }) => {
     const page = await open();
     await waitForStart(page);
