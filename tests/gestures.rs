@@ -7,9 +7,10 @@ use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Theme, Touc
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use tautline::app::{Start, Tautline};
+use tautline::compute::protocol::Topic;
 use tautline::scenario::{Scenario, presets};
 
-use interface::{app, app_started, app_with, paper, settle, type_value, wait_for_label};
+use interface::{app, app_started, app_with, paper, settle, type_value, wait, wait_for_label};
 
 #[path = "common/interface.rs"]
 mod interface;
@@ -202,7 +203,7 @@ fn numbers(app: &App) -> Vec<(Role, String, Rect, Option<f64>)> {
 /// Swipes up and down on every number of the page in turn; each time the page scrolls, and no number changes.
 fn swipes_scroll(app: &mut App, expected: usize) {
     let mut done = std::collections::BTreeSet::new();
-    for _ in 0..60 {
+    for _ in 0..120 {
         let all = numbers(app);
         let reachable = Rect::from_min_max(Pos2::new(0.0, 340.0), Pos2::new(360.0, 730.0));
         let next = all.iter().find(|(role, name, rect, _)| {
@@ -244,12 +245,28 @@ fn a_swipe_up_or_down_on_any_value_or_slider_scrolls_and_changes_nothing() {
     // Two for each of the twelve numbers of the controls.
     swipes_scroll(&mut app, 24);
 
+    // Those that are folded: the tensions' laws, winches, the frame.
+    let mut app = phone();
+    for name in ["Cable 3: by law", "Layout of the robot", "Winch 2"] {
+        let header = app.get_all_by_label(name).next().expect("a header");
+        header.scroll_to_me();
+        app.run_steps(40);
+        let header = app.get_all_by_label(name).next().expect("a header");
+        header.click();
+        app.run_steps(40);
+    }
+    // Those of the law that are below the place where it was opened, four of the winch, two of the frame.
+    swipes_scroll(&mut app, 14);
+
     let mut app = phone();
     app.get_by_label("Plots").click();
     app.run_steps(10);
     app.get_by_label_contains("Pause").click();
-    app.run_steps(3);
-    swipes_scroll(&mut app, 3);
+    app.get_by_label("Campbell").click();
+    wait(&mut app, "a study", |app| app.study(Topic::Campbell).2);
+    app.run_steps(10);
+    // Amplitude, phase; tempo and the highest frequency, which can also be typed.
+    swipes_scroll(&mut app, 6);
 }
 
 #[test]

@@ -102,10 +102,14 @@ fn the_edges_of_panels_can_be_dragged_and_the_canvas_keeps_some_room() {
     settle(&mut app);
     let [wider, same] = between(&app);
     assert!((wider - left - 60.0).abs() < 2.0 && (same - right).abs() < 0.5, "{left} {wider}, {right} {same}");
+    // Neither edge pushes the other one, nor the canvas out.
     drag(&mut app, at(right + 1.0), at(200.0));
     settle(&mut app);
     let [from, to] = between(&app);
-    assert!(to - from >= 300.0, "{from} {to}");
+    assert!((from - wider).abs() < 0.5 && to - from >= 315.0, "{from} {to}");
+    drag(&mut app, at(from - 1.0), at(1200.0));
+    settle(&mut app);
+    assert_eq!(between(&app).map(f32::round), [from, to].map(f32::round), "there is no room left");
 }
 
 fn wheel(app: &mut App, at: Pos2, by: f32) {

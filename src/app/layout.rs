@@ -1,6 +1,8 @@
 //! Where everything is on the screen: side by side on a wide one, one below the other on a narrow one.
 
-use eframe::egui::{self, CentralPanel, Frame, Panel, Rect, Ui, Vec2, containers::panel::PanelState};
+use std::ops::RangeInclusive;
+
+use eframe::egui::{CentralPanel, Frame, Panel, Pos2, Rect, Ui, Vec2, containers::panel::PanelState};
 
 use super::command::Command;
 use super::menu::{self, Possible};
@@ -41,15 +43,18 @@ impl Tautline {
     }
 
     pub(super) fn wide(&mut self, ui: &mut Ui) {
-        let shown = widths(self.state.panels, ui.available_width());
-        let mut set = shown;
-        set[0] = side(ui, Panel::left("controls"), "controls", shown[0], LEAST[0], |ui| self.controls(ui));
-        set[1] = side(ui, Panel::right("answer"), "answer", shown[1], LEAST[1], |ui| {
+        let room = ui.available_width() - CANVAS;
+        let shown = widths(self.state.panels, room);
+        let left = shown[0]..=shown[0].max(room - shown[1]);
+        let left = side(ui, Panel::left("controls"), "controls", LEAST[0], left, |ui| self.controls(ui));
+        let right = shown[1]..=shown[1].max(room - left);
+        let right = side(ui, Panel::right("answer"), "answer", LEAST[1], right, |ui| {
             ui.add_space(6.0);
             self.answer(ui);
             ui.separator();
             self.plots(ui);
         });
+        let set = [left, right];
         for ((kept, set), shown) in self.state.panels.iter_mut().zip(set).zip(shown) {
             // Only a person changes a width. Where a small window has made it smaller, it comes back with the room.
             if (set - shown).abs() > 0.5 {
@@ -122,21 +127,28 @@ impl Tautline {
     }
 }
 
-/// A panel at a side, so wide, whatever is in it. Gives how wide it is to be from now on: its edge can be dragged.
-fn side(ui: &mut Ui, panel: Panel, name: &str, width: f32, least: f32, content: impl FnOnce(&mut Ui)) -> f32 {
+/// A panel at a side, as wide as `width` begins, whatever is in it. Gives how wide it is to be from now on: its edge can
+/// be dragged from the least to the end of `width`.
+fn side(
+    ui: &mut Ui,
+    panel: Panel,
+    name: &str,
+    least: f32,
+    width: RangeInclusive<f32>,
+    content: impl FnOnce(&mut Ui),
+) -> f32 {
     // egui keeps the width of a panel's content; the width that a person has set is kept here.
-    let outer_rect = Rect::from_min_size(egui::Pos2::ZERO, Vec2::new(width, ui.available_height()));
+    let outer_rect = Rect::from_min_size(Pos2::ZERO, Vec2::new(*width.start(), ui.available_height()));
     let id = ui.scope_id().with(name);
     ui.data_mut(|data| data.insert_persisted(id, PanelState { outer_rect }));
-    let most = width.max(ui.available_width() - CANVAS);
-    let panel = panel.size_range(least..=most).show(ui, |ui| gestures::scroll(ui, content));
+    let panel = panel.size_range(least..=*width.end()).show(ui, |ui| gestures::scroll(ui, content));
     panel.response.rect.width()
 }
 
-/// How wide the panels are where there is so much room, in points, that they leave some to the canvas.
+/// How wide the panels are where they have so much room together, in points.
 fn widths(set: [f32; 2], room: f32) -> [f32; 2] {
     let more = [0, 1].map(|i| if set[i].is_finite() { (set[i] - LEAST[i]).max(0.0) } else { 0.0 });
-    let left = (room - CANVAS - LEAST[0] - LEAST[1]).max(0.0);
+    let left = (room - LEAST[0] - LEAST[1]).max(0.0);
     let part = (left / (more[0] + more[1]).max(1.0)).min(1.0);
     [0, 1].map(|i| LEAST[i] + part * more[i])
 }
@@ -146,15 +158,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn panels_are_as_wide_as_set_and_leave_room_to_the_canvas() {
+    fn panels_are_as_wide_as_set_where_there_is_room() {
         let near = |a: [f32; 2], b: [f32; 2]| (a[0] - b[0]).abs() < 0.01 && (a[1] - b[1]).abs() < 0.01;
-        assert!(near(widths([380.0, 340.0], 1280.0), [380.0, 340.0]));
-        assert!(near(widths([900.0, 340.0], 1920.0), [900.0, 340.0]));
+        assert!(near(widths([380.0, 340.0], 960.0), [380.0, 340.0]));
+        assert!(near(widths([900.0, 340.0], 1600.0), [900.0, 340.0]));
         for set in [[900.0, 900.0], [2000.0, 280.0], [f32::INFINITY, 400.0], [f32::NAN, -1.0]] {
-            let [left, right] = widths(set, 1280.0);
-            assert!(left >= LEAST[0] && right >= LEAST[1] && left + right <= 1280.0 - CANVAS + 0.01, "{left} {right}");
+            let [left, right] = widths(set, 960.0);
+            assert!(left >= LEAST[0] && right >= LEAST[1] && left + right <= 960.01, "{left} {right}");
         }
         // Where there is no room they take the least that they can do with.
-        assert!(near(widths([380.0, 340.0], 800.0), LEAST));
+        assert!(near(widths([380.0, 340.0], 480.0), LEAST));
     }
 }

@@ -82,7 +82,8 @@ pub fn ui(
     } else {
         paint::legend(&painter, ui.visuals(), rect, &scene);
     }
-    paint::arrow_legend(&painter, ui.visuals(), rect, arrow);
+    let legend = !state.map.on && scene.tensions.is_some();
+    paint::arrow_legend(&painter, ui.visuals(), rect, arrow, legend);
     map::controls(ui, rect, state, studies, commands);
     rect
 }

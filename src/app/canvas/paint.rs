@@ -5,6 +5,8 @@ use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, 
 use super::{Arrow, Scene, View};
 use crate::app::theme;
 
+/// The width of the colour bar of the tensions, in points.
+const BAR: f32 = 130.0;
 /// Longer lines than this, in points, are not dashed.
 const LONGEST_DASHED: f32 = 1e4;
 
@@ -150,9 +152,9 @@ fn velocity(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, ar
     painter.add(Shape::convex_polygon(head, colour, rim));
 }
 
-/// What the arrow's length means, in the canvas's upper left corner, below the tensions.
-pub fn arrow_legend(painter: &Painter, visuals: &Visuals, rect: Rect, arrow: Arrow) {
-    let at = rect.min + Vec2::new(12.0, 54.0);
+/// What the arrow's length means: in the canvas's upper left corner, or beside the legend that is there.
+pub fn arrow_legend(painter: &Painter, visuals: &Visuals, rect: Rect, arrow: Arrow, legend: bool) {
+    let at = rect.min + Vec2::new(if legend { 12.0 + BAR + 14.0 } else { 12.0 }, 32.0);
     painter.text(at, Align2::LEFT_TOP, arrow.legend(), FontId::proportional(12.0), visuals.text_color());
 }
 
@@ -182,7 +184,7 @@ pub fn worst(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, d
 /// The colour bar of the tensions, in the canvas's upper left corner.
 pub fn legend(painter: &Painter, visuals: &Visuals, rect: Rect, scene: &Scene) {
     let Some([low, high]) = scene.tensions else { return };
-    let bar = Rect::from_min_size(rect.min + Vec2::new(12.0, 26.0), Vec2::new(130.0, 8.0));
+    let bar = Rect::from_min_size(rect.min + Vec2::new(12.0, 26.0), Vec2::new(BAR, 8.0));
     let font = FontId::proportional(12.0);
     let text = visuals.text_color();
     painter.text(bar.min - Vec2::new(0.0, 3.0), Align2::LEFT_BOTTOM, "Cable tension", font.clone(), text);

@@ -2,6 +2,8 @@
 //! up or down scrolls, whatever it began on.
 
 mod queue;
+#[cfg(target_arch = "wasm32")]
+mod web;
 
 use eframe::egui::{Context, LayerId, Plugin, Pos2, RawInput, Rect, Response, ScrollArea, Ui};
 use queue::Queue;
@@ -9,6 +11,8 @@ use queue::Queue;
 /// Registers what is in here with egui.
 pub fn install(context: &Context) {
     context.add_plugin(Gestures::default());
+    #[cfg(target_arch = "wasm32")]
+    web::listen();
 }
 
 #[derive(Default)]
@@ -25,12 +29,17 @@ impl Plugin for Gestures {
 
     fn input_hook(&mut self, context: &Context, input: &mut RawInput) {
         let turning = std::mem::take(&mut self.turning);
-        self.queue.extend(std::mem::take(&mut input.events));
+        #[cfg(target_arch = "wasm32")]
+        let by_finger = web::is_finger();
+        // Elsewhere a touch comes with its press.
+        #[cfg(not(target_arch = "wasm32"))]
+        let by_finger = false;
+        self.queue.extend(std::mem::take(&mut input.events), by_finger);
         let turns = |at: Pos2| {
             let layer = context.layer_id_at(at);
             turning.iter().any(|(of, rect)| Some(*of) == layer && rect.contains(at))
         };
-        input.events = self.queue.next(turns);
+        input.events = self.queue.next(turns, context.dragged_id().is_some());
     }
 
     fn on_end_pass(&mut self, ui: &mut Ui) {

@@ -19,6 +19,8 @@ pub(super) struct Queue {
     at: Option<Pos2>,
     /// The buttons that are down, as far as egui knows.
     down: Vec<PointerButton>,
+    /// Where the last of them went down.
+    pressed_at: Option<Pos2>,
     /// The fingers on the screen.
     fingers: BTreeSet<TouchId>,
     finger: Finger,
@@ -44,8 +46,8 @@ enum Finger {
 }
 
 impl Queue {
-    /// Takes in what has come.
-    pub(super) fn extend(&mut self, events: Vec<Event>) {
+    /// Takes in what has come; `by_finger` where presses are known to be a finger's.
+    pub(super) fn extend(&mut self, events: Vec<Event>, by_finger: bool) {
         let start = |event: &Event| match event {
             Event::Touch { phase: TouchPhase::Start, pos, .. } => Some(*pos),
             _ => None,
@@ -54,7 +56,7 @@ impl Queue {
         self.waiting.extend(events.into_iter().map(|event| {
             // Backends tell of a finger twice, as a touch and as what a mouse would have done there, in either order.
             let finger = matches!(&event, Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. }
-                if started.iter().any(|start| start.distance(*pos) < 1.0));
+                if by_finger || started.iter().any(|start| same(*start, *pos)));
             Waiting { event, finger }
         }));
     }
@@ -72,8 +74,9 @@ impl Queue {
         }
     }
 
-    /// What the next pass is to know. `turns` tells where a finger may turn something or scroll.
-    pub(super) fn next(&mut self, turns: impl Fn(Pos2) -> bool) -> Vec<Event> {
+    /// What the next pass is to know. `turns` tells where a finger may turn something or scroll, `drags` whether
+    /// something is being dragged.
+    pub(super) fn next(&mut self, turns: impl Fn(Pos2) -> bool, drags: bool) -> Vec<Event> {
         let mut out = Vec::new();
         if let Finger::Scrolls { begins, .. } = &mut self.finger {
             *begins = false;
@@ -82,7 +85,7 @@ impl Queue {
         let (mut changed, mut dragged) = (false, false);
         while let Some(Waiting { event, finger }) = self.waiting.pop_front() {
             match event {
-                Event::PointerMoved(to) if matches!(self.finger, Finger::Undecided { .. }) => {
+                Event::PointerMoved(to) if self.is_undecided() => {
                     let way = to - self.at.unwrap_or(to);
                     if way.length() <= DECIDED {
                         continue;
@@ -100,34 +103,41 @@ impl Queue {
                         self.waiting.push_front(Waiting { event, finger });
                         break;
                     }
-                    dragged |= self.drags();
+                    dragged |= self.drags(to, drags);
                 }
                 Event::PointerButton { pos, button, pressed, .. } => {
-                    let tap = !pressed && matches!(self.finger, Finger::Undecided { .. });
-                    if tap {
-                        self.waiting.push_front(Waiting { event, finger });
+                    let (undecided, is_down) = (self.is_undecided(), self.down.contains(&button));
+                    // Browsers tell of a finger as a pointer and as a touch: every press and every release comes twice.
+                    let again = match self.at {
+                        Some(at) if pressed => same(at, pos) && (undecided || is_down),
+                        _ => !pressed && !is_down && matches!(self.finger, Finger::None),
+                    };
+                    if again {
+                        continue;
+                    }
+                    if undecided {
+                        // A tap, or another finger.
+                        self.waiting.push_front(Waiting { event, finger: false });
                         self.press();
                         continue;
                     }
                     let moves = self.at != Some(pos);
-                    if changed || (!pressed && (dragged || (moves && self.drags()))) {
-                        self.waiting.push_front(Waiting { event, finger });
-                        if moves && !changed {
-                            self.at = Some(pos);
-                            out.push(Event::PointerMoved(pos));
-                        }
-                        break;
-                    }
-                    if moves {
+                    // A click is over at once: browsers allow some things only while they tell of it.
+                    let ends = !pressed && (dragged || (moves && self.drags(pos, drags)));
+                    if moves && !changed {
                         self.at = Some(pos);
                         out.push(Event::PointerMoved(pos));
+                    }
+                    if changed || ends {
+                        self.waiting.push_front(Waiting { event, finger });
+                        break;
                     }
                     if finger && self.fingers.len() <= 1 && turns(pos) {
                         self.finger = Finger::Undecided { press: event };
                         continue;
                     }
                     changed = true;
-                    self.change(button, pressed);
+                    self.change(button, pos, pressed);
                 }
                 Event::Touch { id, phase: TouchPhase::Start, .. } => {
                     self.fingers.insert(id);
@@ -140,9 +150,11 @@ impl Queue {
                 Event::Touch { id, phase: TouchPhase::Cancel, .. } => {
                     self.fingers.remove(&id);
                     // What it has done counts, and it is no tap. egui knows of no drag without an end.
-                    let drags = self.drags();
-                    self.finger = Finger::None;
-                    if let Some(pos) = self.at.filter(|_| drags) {
+                    let acts = !self.down.is_empty() || matches!(self.finger, Finger::Scrolls { .. });
+                    if self.is_undecided() {
+                        self.finger = Finger::None;
+                    }
+                    if let Some(pos) = self.at.filter(|_| acts) {
                         let (button, modifiers) = (PointerButton::Primary, Modifiers::default());
                         let event = Event::PointerButton { pos, button, pressed: false, modifiers };
                         self.waiting.push_front(Waiting { event, finger: false });
@@ -169,18 +181,30 @@ impl Queue {
     }
 
     /// Notes that a button has changed.
-    fn change(&mut self, button: PointerButton, pressed: bool) {
+    fn change(&mut self, button: PointerButton, at: Pos2, pressed: bool) {
         self.down.retain(|other| *other != button);
         if pressed {
             self.down.push(button);
+            self.pressed_at = Some(at);
         } else {
             self.finger = Finger::None;
         }
     }
 
-    fn drags(&self) -> bool {
-        !self.down.is_empty() || matches!(self.finger, Finger::Scrolls { .. })
+    fn is_undecided(&self) -> bool {
+        matches!(self.finger, Finger::Undecided { .. })
     }
+
+    /// Whether a movement to this place drags something, or is too far for a click.
+    fn drags(&self, to: Pos2, drags: bool) -> bool {
+        let far = self.pressed_at.is_none_or(|from| from.distance(to) > DECIDED);
+        matches!(self.finger, Finger::Scrolls { .. }) || (!self.down.is_empty() && (drags || far))
+    }
+}
+
+/// Whether two places are the same, but for rounding.
+fn same(a: Pos2, b: Pos2) -> bool {
+    a.distance(b) < 1.0
 }
 
 #[cfg(test)]
@@ -212,10 +236,10 @@ mod tests {
     /// The passes that events come in, without the touches.
     fn passes(events: Vec<Event>, turns: bool) -> Vec<Vec<Event>> {
         let mut queue = Queue::default();
-        queue.extend(events);
+        queue.extend(events, false);
         let mut passes = Vec::new();
         while queue.is_waiting() {
-            let mut pass = queue.next(|_| turns);
+            let mut pass = queue.next(|_| turns, false);
             pass.retain(|event| !matches!(event, Event::Touch { .. }));
             passes.push(pass);
             assert!(passes.len() < 20, "it never ends: {passes:?}");
@@ -253,25 +277,63 @@ mod tests {
         assert_eq!(passes(swipe(DOWN), false), [press, vec![moved(DOWN)], up(DOWN)]);
     }
 
+    /// A browser tells of a finger as a pointer, in a pass of its own, and then as a touch.
+    #[test]
+    fn what_comes_twice_counts_once() {
+        for (turns, to, presses) in [(true, DOWN, 0), (true, A, 1), (true, RIGHT, 1), (false, DOWN, 1)] {
+            let mut queue = Queue::default();
+            let mut told = Vec::new();
+            let touch_start = [button(A, true), touch(1, TouchPhase::Start, A)];
+            let touch_end = [button(to, false), Event::PointerGone, touch(1, TouchPhase::End, to)];
+            let moved = [Event::PointerMoved(to), touch(1, TouchPhase::Move, to)];
+            for batch in [&[button(A, true)][..], &touch_start, &moved, &[button(to, false)], &touch_end, &[], &[]] {
+                queue.extend(batch.to_vec(), true);
+                told.extend(queue.next(|_| turns, false));
+            }
+            let count = |pressed| {
+                let same =
+                    |event: &&Event| matches!(event, Event::PointerButton { pressed: now, .. } if *now == pressed);
+                told.iter().filter(same).count()
+            };
+            assert_eq!((count(true), count(false)), (presses, 1), "{turns} {to:?}: {told:?}");
+        }
+    }
+
+    /// Browsers copy to the clipboard only while they tell of a click.
+    #[test]
+    fn a_click_of_a_hand_that_trembles_is_over_at_once() {
+        let mut queue = Queue::default();
+        queue.extend(vec![Event::PointerMoved(A), button(A, true)], false);
+        queue.next(|_| true, false);
+        let near = pos2(12.0, 11.0);
+        queue.extend(vec![Event::PointerMoved(near), button(near, false)], false);
+        assert!(queue.next(|_| true, false).contains(&button(near, false)));
+        // What is dragged waits for the movement.
+        queue.extend(vec![Event::PointerMoved(A), button(A, true)], false);
+        queue.next(|_| true, false);
+        queue.extend(vec![Event::PointerMoved(near), button(near, false)], false);
+        assert!(!queue.next(|_| true, true).contains(&button(near, false)));
+    }
+
     #[test]
     fn two_fingers_are_no_swipe() {
         let mut queue = Queue::default();
-        queue.extend(vec![button(A, true), touch(1, TouchPhase::Start, A)]);
-        assert!(!queue.next(|_| true).contains(&button(A, true)));
-        queue.extend(vec![touch(2, TouchPhase::Start, DOWN), Event::PointerMoved(DOWN)]);
-        assert!(queue.next(|_| true).contains(&button(A, true)));
+        queue.extend(vec![button(A, true), touch(1, TouchPhase::Start, A)], false);
+        assert!(!queue.next(|_| true, false).contains(&button(A, true)));
+        queue.extend(vec![touch(2, TouchPhase::Start, DOWN), Event::PointerMoved(DOWN)], false);
+        assert!(queue.next(|_| true, false).contains(&button(A, true)));
         assert_eq!(queue.swipe(), None);
     }
 
     #[test]
     fn what_the_system_takes_away_is_no_tap_and_ends_a_drag() {
         let mut queue = Queue::default();
-        queue.extend(vec![button(A, true), touch(1, TouchPhase::Start, A), touch(1, TouchPhase::Cancel, A)]);
-        let events = queue.next(|_| true);
+        queue.extend(vec![button(A, true), touch(1, TouchPhase::Start, A), touch(1, TouchPhase::Cancel, A)], false);
+        let events = queue.next(|_| true, false);
         assert!(!queue.is_waiting() && !events.iter().any(|event| matches!(event, Event::PointerButton { .. })));
-        queue.extend(vec![button(A, true), touch(1, TouchPhase::Start, A)]);
-        queue.next(|_| false);
-        queue.extend(vec![touch(1, TouchPhase::Cancel, A)]);
-        assert!(queue.next(|_| false).contains(&button(A, false)));
+        queue.extend(vec![button(A, true), touch(1, TouchPhase::Start, A)], false);
+        queue.next(|_| false, false);
+        queue.extend(vec![touch(1, TouchPhase::Cancel, A)], false);
+        assert!(queue.next(|_| false, false).contains(&button(A, false)));
     }
 }
