@@ -107,13 +107,17 @@ impl Answers {
 
     /// Whether there is more to come of the document as it is.
     pub fn are_awaited(&self) -> bool {
-        let failed = self.failed.as_ref().is_some_and(|(revision, _)| *revision == self.revision);
-        self.broken.is_none() && !failed && !self.all_current()
+        self.broken.is_none() && !self.pose_failed() && !self.all_current()
     }
 
     /// The newest pose, unless a newer one failed.
     pub fn pose(&self) -> Option<&PoseAnswer> {
         self.failed.is_none().then_some(self.pose.as_ref()).flatten().map(|(_, pose)| pose)
+    }
+
+    /// Whether the document as it is has no answer.
+    pub fn pose_failed(&self) -> bool {
+        self.failed.as_ref().is_some_and(|(revision, _)| *revision == self.revision)
     }
 
     /// Whether [`Self::pose`] belongs to the document as it is.

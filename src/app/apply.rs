@@ -5,6 +5,7 @@ use eframe::egui::Context;
 use super::export::{self, Content};
 use super::files::Clip;
 use super::notices::About;
+use super::pinned::Pinned;
 use super::state::Document;
 use super::{Command, Tautline, fields, number};
 use crate::compute::protocol::Request;
@@ -45,13 +46,17 @@ impl Tautline {
             }
             Command::Reset => self.open(self.present.document.original.clone()),
             Command::Pin(on) => {
-                self.present.pinned = None;
-                self.pinning = on;
-                if on && self.present.answers.failed().is_some() {
-                    self.pinning = false;
-                    self.complain("A pose without an answer cannot be pinned.".into());
-                } else {
-                    self.notices.succeed(About::Action);
+                self.unpin();
+                let wake = self.context.clone();
+                let present = &self.present;
+                let design =
+                    || Pinned::new(present.document.scenario.clone(), &present.answers, move || wake.request_repaint());
+                match on.then(design).transpose() {
+                    Ok(pinned) => {
+                        self.present.pinned = pinned;
+                        self.notices.succeed(About::Action);
+                    }
+                    Err(reason) => self.complain(reason),
                 }
             }
             Command::Open => self.files.open(context),
@@ -87,6 +92,12 @@ impl Tautline {
             Command::Complain(text) => self.complain(text),
             Command::DismissNotice(index) => self.notices.dismiss(index),
         }
+    }
+
+    /// Lets the pinned design go, with whatever is being computed for it.
+    pub(super) fn unpin(&mut self) {
+        let orders = self.present.pinned.take().map(Pinned::release);
+        self.carry_out(orders.into_iter().flatten());
     }
 
     pub(super) fn complain(&mut self, text: String) {

@@ -260,7 +260,8 @@ pub const MODEL: [Field; 3] = [
     Field {
         range: [2.0, 40.0],
         integer: true,
-        meaning: "Finite elements per cable. The error falls as 1/n²; the work grows faster than n.",
+        meaning: "Finite elements per cable. The error falls as 1/n² where a vibration grows, as 1/n for a divergence; the \
+                  work grows faster than n. Mesh, among the plots, tells how large it is.",
         ..field("Elements per cable", "n", "", Number::Elements)
     },
 ];

@@ -121,7 +121,7 @@ impl Tautline {
             undo: self.history.can_undo(&self.present.document),
             redo: self.history.can_redo(&self.present.document),
             reset: self.present.document.scenario != self.present.document.original,
-            unpin: self.present.pinned.is_some() || self.pinning,
+            unpin: self.present.pinned.is_some(),
         };
         menu::ui(ui, &mut self.state, possible, &mut self.commands);
     }

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use crate::app::Facts;
 use crate::app::answers::CriticalState;
+use crate::app::panels::answer;
+use crate::app::{Facts, digits};
 use crate::scenario::report::KindReport;
 
 /// The critical speed in a sentence, once it is known; `None` while it is being computed.
@@ -19,10 +20,16 @@ pub fn summary(facts: Facts<'_>) -> Option<String> {
             None => format!("No critical speed up to {} metres per second.", answer.searched_up_to),
             Some(critical) => {
                 let kind = match critical.kind {
-                    KindReport::Flutter => format!("flutter at {:.4} hertz", critical.frequency_hz),
+                    KindReport::Flutter => {
+                        let frequency = digits::certain(critical.frequency_hz, facts.certainty.frequency_hz());
+                        format!("flutter at {frequency} hertz")
+                    }
                     KindReport::Divergence => "divergence".into(),
                 };
-                format!("Critical speed {:.4} metres per second, {kind}, cable {}.", critical.speed, critical.cable)
+                let speed = digits::certain(critical.speed, facts.certainty.speed());
+                let why = answer::at_rest(critical, &facts.document.scenario).map(|why| format!(" {why}"));
+                let why = why.unwrap_or_default();
+                format!("Critical speed {speed} metres per second, {kind}, cable {}.{why}", critical.cable)
             }
         },
     })
@@ -47,7 +54,7 @@ pub fn details(facts: Facts<'_>) -> Vec<String> {
         let mut line = format!("{} at this speed", if stable { "Stable" } else { "Unstable" });
         if let Some(growth) = pose.report.max_growth_rate {
             // Writing to a string does not fail.
-            let _ = write!(line, ", largest growth rate {growth:.4} per second");
+            let _ = write!(line, ", largest growth rate {} per second", digits::certain(growth, None));
         }
         lines.push(line + ".");
     }
@@ -61,10 +68,17 @@ pub fn details(facts: Facts<'_>) -> Vec<String> {
             if cable.length_rate < 0.0 { "being reeled in" } else { "being paid out" }
         ));
     }
+    if let CriticalState::Current(answer) = facts.answers.critical()
+        && let Some(critical) = &answer.critical
+        && let Some(note) = facts.certainty.note(critical)
+    {
+        lines.push(format!("Of the critical speed: {note}."));
+    }
     if let CriticalState::Current(_) = facts.answers.critical()
         && let Some(difference) = facts.pinned.and_then(|pinned| pinned.difference(facts.answers))
     {
-        lines.push(format!("Against the pinned design: {difference:+.4} metres per second."));
+        let difference = digits::change_like(difference, facts.share());
+        lines.push(format!("Against the pinned design: {difference} metres per second."));
     }
     lines
 }

@@ -7,7 +7,9 @@
 mod answers;
 mod apply;
 mod canvas;
+mod certainty;
 mod command;
+mod digits;
 mod export;
 mod fields;
 mod files;
@@ -40,6 +42,7 @@ use std::time::Duration;
 use eframe::egui::{self, Event, Rect, Ui};
 
 use answers::{Answers, CriticalState};
+use certainty::Certainty;
 use command::Command;
 use files::Files;
 use history::History;
@@ -76,8 +79,6 @@ pub struct Tautline {
     compute: Option<Compute>,
     /// How often the engine was lost over the document as it is.
     losses: u32,
-    /// The present design is to be pinned as soon as all is known of it.
-    pinning: bool,
     pool: Pool,
     files: Files,
     keeper: Keeper,
@@ -114,8 +115,19 @@ struct Present {
 impl Present {
     fn facts(&self, settings: Settings) -> Facts<'_> {
         let Self { document, answers, studies, joined, pinned } = self;
-        Facts { document, answers, studies, joined, pinned: pinned.as_ref(), settings }
+        let certainty = certainty_of(&document.scenario, answers, studies);
+        Facts { document, answers, studies, joined, pinned: pinned.as_ref(), certainty, settings }
     }
+}
+
+/// How far the critical speed of a design can be trusted.
+fn certainty_of(scenario: &Scenario, answers: &Answers, studies: &Studies) -> Certainty {
+    let critical = match answers.critical() {
+        CriticalState::Current(answer) => answer.critical.as_ref(),
+        _ => None,
+    };
+    let known = studies.shown(Topic::Convergence).map(|shown| shown.known);
+    critical.zip(known).map_or(Certainty::Unknown, |(critical, known)| Certainty::of(scenario, critical, known))
 }
 
 /// What panels read.
@@ -131,8 +143,17 @@ pub struct Facts<'a> {
     pub joined: &'a Joined,
     /// The design to compare with.
     pub pinned: Option<&'a Pinned>,
+    /// How far the critical speed on show can be trusted.
+    pub certainty: Certainty,
     /// Units.
     pub settings: Settings,
+}
+
+impl Facts<'_> {
+    /// How far off other critical speeds than the one on show are to be expected, as a part of them.
+    pub fn share(&self) -> Option<f64> {
+        self.certainty.share(self.answers.last_critical()?.critical.as_ref()?)
+    }
 }
 
 /// Where things are on the screen.
@@ -215,7 +236,6 @@ impl Tautline {
             context: context.clone(),
             compute: None,
             losses: 0,
-            pinning: false,
             pool,
             files: Files::new(context),
             applied: Settings::default(),
@@ -270,6 +290,16 @@ impl Tautline {
     pub fn study(&self, topic: Topic) -> (usize, usize, bool) {
         let progress = self.present.studies.progress(topic);
         (progress.done, progress.total, progress.stage == studies::Stage::Finished)
+    }
+
+    /// The pinned design, and whether all is known of its pose.
+    pub fn pinned(&self) -> Option<(&Scenario, bool)> {
+        self.present.pinned.as_ref().map(|pinned| (&pinned.scenario, pinned.is_complete()))
+    }
+
+    /// The topics of which a study is at work, of the present design or the pinned one.
+    pub fn at_work(&self) -> Vec<Topic> {
+        studies::TOPICS.into_iter().filter(|topic| self.pool.progress(*topic).is_some()).collect()
     }
 
     /// Sends the document to the engine, which is started where there is none.
@@ -330,7 +360,8 @@ impl Tautline {
         let critical =
             self.present.answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.speed);
         let plot = self.plots_open.then_some(self.state.plot);
-        let wishes = studies::wanted(&self.present.document.scenario, &self.state, plot, critical);
+        let at_rest = self.present.answers.all_current() && !self.context.input(|input| input.pointer.any_down());
+        let wishes = studies::wanted(&self.present.document.scenario, &self.state, plot, critical, at_rest);
         let orders = self.present.studies.want(wishes);
         let idle = !self.present.studies.is_working();
         // The pool has one study of each topic: the pinned design's go first, to make room for the present one's.
@@ -350,10 +381,9 @@ impl Tautline {
             self.present.joined.take(&news);
             self.present.studies.take(news);
         }
-        if self.pinning && self.present.answers.all_current() {
-            self.pinning = false;
-            self.present.pinned =
-                Some(Pinned::new(self.present.document.scenario.clone(), self.present.answers.clone()));
+        if let Some(Err(reason)) = self.present.pinned.as_mut().map(Pinned::go_on) {
+            self.unpin();
+            self.complain(reason);
         }
     }
 
@@ -452,7 +482,8 @@ impl eframe::App for Tautline {
         }
         self.history.watch(context, &self.present.document);
         self.take_replies();
-        if self.present.answers.are_awaited() || self.windows.validation.is_waiting() {
+        let pinning = self.present.pinned.as_ref().is_some_and(|pinned| !pinned.is_complete());
+        if self.present.answers.are_awaited() || pinning || self.windows.validation.is_waiting() {
             context.request_repaint_after(ENGINE_HEARTBEAT);
         }
         self.study_on();

@@ -1,25 +1,94 @@
 //! A design that is kept beside the present one, to see the difference.
 
 use crate::app::answers::Answers;
+use crate::app::certainty::Certainty;
 use crate::app::state::UiState;
 use crate::app::studies::{self, Known, Order, Studies};
-use crate::compute::protocol::{CriticalAnswer, PoseAnswer, StudyNews, Topic};
+use crate::compute::Compute;
+use crate::compute::protocol::{
+    CriticalAnswer, Job, ModeChoice, PoseAnswer, Reply, Request, StudyNews, Topic, Update, Which,
+};
 use crate::scenario::Scenario;
-use crate::scenario::report::{CriticalReport, SensitivityReport};
+use crate::scenario::report::{CriticalReport, DEFAULT_MAX_SPEED, SensitivityReport};
+
+/// Why a design cannot be pinned.
+const NO_ANSWER: &str = "A pose without an answer cannot be pinned.";
+/// The only revision of a pinned design's own engine.
+const OWN: u64 = 1;
 
 /// A design with what is known of it.
-#[derive(Debug)]
 pub struct Pinned {
     /// The design.
     pub scenario: Scenario,
     answers: Answers,
     studies: Studies,
+    /// At work until its answers are complete.
+    engine: Option<Compute>,
+}
+
+impl std::fmt::Debug for Pinned {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.debug_struct("Pinned").field("scenario", &self.scenario).finish_non_exhaustive()
+    }
 }
 
 impl Pinned {
-    /// Pins a design whose answers are complete.
-    pub fn new(scenario: Scenario, answers: Answers) -> Self {
-        Self { scenario, answers, studies: Studies::apart() }
+    /// Pins a design with its answers. Where they are not complete it gets an engine of its own, since the other one goes
+    /// on with whatever the present design becomes; that one calls `wake` when there is news.
+    ///
+    /// # Errors
+    /// Where there is no answer to the design, or no engine to be had.
+    pub fn new(scenario: Scenario, answers: &Answers, wake: impl Fn() + Send + 'static) -> Result<Self, String> {
+        if answers.pose_failed() {
+            return Err(NO_ANSWER.into());
+        }
+        let mut pinned = Self { scenario, answers: answers.clone(), studies: Studies::apart(), engine: None };
+        if !answers.all_current() {
+            let mut engine = Compute::start(wake)?;
+            pinned.answers = Answers::default();
+            pinned.answers.expect(OWN);
+            engine.submit(&Request::Analyze(Job {
+                revision: OWN,
+                scenario: pinned.scenario.to_json(),
+                max_speed: DEFAULT_MAX_SPEED,
+                mode: ModeChoice { which: Which::Critical, along_x: false },
+            }))?;
+            pinned.engine = Some(engine);
+        }
+        Ok(pinned)
+    }
+
+    /// Takes in what its own engine has found, and lets that go once all is known.
+    ///
+    /// # Errors
+    /// Where there is no answer to the design.
+    pub fn go_on(&mut self) -> Result<(), String> {
+        let Some(engine) = &mut self.engine else { return Ok(()) };
+        for reply in engine.poll() {
+            match reply {
+                Reply { update: Update::Broken(reason), .. } => {
+                    return Err(format!("The design could not be pinned: {reason}."));
+                }
+                reply => self.answers.take(reply),
+            }
+        }
+        if self.answers.pose_failed() {
+            return Err(NO_ANSWER.into());
+        }
+        if self.answers.all_current() {
+            self.engine = None;
+        }
+        Ok(())
+    }
+
+    /// Whether all is known of its pose.
+    pub fn is_complete(&self) -> bool {
+        self.engine.is_none()
+    }
+
+    /// What the pool is to be told when the design is let go.
+    pub fn release(mut self) -> Vec<Order> {
+        self.studies.want(Vec::new())
     }
 
     /// Its pose and modes.
@@ -53,6 +122,11 @@ impl Pinned {
         self.search()?.critical.as_ref()
     }
 
+    /// How far its critical speed can be trusted.
+    pub fn certainty(&self) -> Certainty {
+        super::certainty_of(&self.scenario, &self.answers, &self.studies)
+    }
+
     /// What is known of a study of it, once there is a picture.
     pub fn study(&self, topic: Topic) -> Option<&Known> {
         self.studies.shown(topic).filter(|shown| shown.current).map(|shown| shown.known)
@@ -61,7 +135,8 @@ impl Pinned {
     /// Asks for the studies of the plot on show, while `idle`: the present design comes first.
     pub fn want(&mut self, idle: bool, state: &UiState, plot: Option<crate::app::state::Plot>) -> Vec<Order> {
         let critical = self.critical().map(|critical| critical.speed);
-        let mut wishes = studies::wanted(&self.scenario, state, plot.filter(|_| idle), critical);
+        let idle = idle && self.is_complete();
+        let mut wishes = studies::wanted(&self.scenario, state, plot.filter(|_| idle), critical, idle);
         // The map shows one design.
         wishes.retain(|wish| wish.topic() != Topic::Map);
         self.studies.want(wishes)

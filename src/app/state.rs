@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use crate::app::digits;
 use crate::app::fields::Number;
 use crate::compute::protocol::{ModeChoice, Which};
 use crate::scenario::Scenario;
@@ -173,10 +174,10 @@ impl Settings {
         }
     }
 
-    /// A frequency in Hz as a text in the unit chosen.
-    pub fn frequency_text(self, frequency_hz: f64, decimals: usize) -> String {
+    /// A frequency in Hz as a text in the unit chosen, with the digits that are certain.
+    pub fn frequency_text(self, frequency_hz: f64, uncertainty_hz: Option<f64>) -> String {
         let (hertz, unit) = self.hertz();
-        format!("{:.decimals$} {unit}", frequency_hz * hertz)
+        format!("{} {unit}", digits::certain(frequency_hz * hertz, uncertainty_hz.map(|off| off * hertz)))
     }
 }
 

@@ -79,6 +79,29 @@ pub fn sequential(part: f64, visuals: &Visuals) -> Color32 {
     Color32::from_rgb(mix(0), mix(1), mix(2))
 }
 
+/// The colour of a value at `part` ∈ [0, 1] of a range whose middle is zero: blue below, orange above, and at zero what
+/// lies between the two and near the ground. Blue and orange are told apart by people who are blind to red, to green, or to
+/// blue; the lightness alone tells how far a value is from zero.
+pub fn diverging(part: f64, visuals: &Visuals) -> Color32 {
+    let stops: [[f64; 3]; 5] = if visuals.dark_mode {
+        [[130.0, 190.0, 255.0], [60.0, 105.0, 165.0], [48.0, 48.0, 52.0], [165.0, 85.0, 30.0], [255.0, 165.0, 80.0]]
+    } else {
+        [[10.0, 70.0, 150.0], [105.0, 160.0, 215.0], [246.0, 246.0, 246.0], [240.0, 160.0, 90.0], [165.0, 60.0, 0.0]]
+    };
+    let part = if part.is_finite() { part.clamp(0.0, 1.0) } else { 0.5 };
+    let position = part * (stops.len() - 1) as f64;
+    // In 0..=3: the part is clamped.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+    let below = (position as usize).min(stops.len() - 2);
+    let weight = position - below as f64;
+    let mix = |i: usize| {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        let byte = (stops[below][i] * (1.0 - weight) + stops[below + 1][i] * weight).round() as u8;
+        byte
+    };
+    Color32::from_rgb(mix(0), mix(1), mix(2))
+}
+
 /// The colour of a class, the first eight without an order: those of Okabe and Ito ("Color Universal Design", 2008),
 /// which colour-blind people tell apart.
 pub fn class(class: usize) -> Color32 {

@@ -1,16 +1,39 @@
-//! What finer meshes would give: Richardson's extrapolation of the critical speed.
+//! What finer meshes would give: Richardson's extrapolation of the critical speed, and how far it can be trusted.
 
-use crate::stability::Critical;
+use std::ops::RangeInclusive;
+
+use crate::stability::{Critical, Kind};
 use crate::study::{Status, Verdict};
 
-/// The order of linear elements: the error falls as n⁻².
-const ORDER: f64 = 2.0;
-/// Orders that three meshes may show; beyond, they are too coarse or differ by more than the mesh's error.
-const ORDERS: std::ops::RangeInclusive<f64> = 1.0..=3.0;
-/// Of the critical speed: smaller differences are those of the search, not of the mesh.
+/// Of a value: smaller differences are those of the search, not of the mesh.
 const ROUNDING: f64 = 1e-8;
 /// Frequencies of one mode on two successive meshes differ by at most this part.
 const SAME_MODE: f64 = 0.25;
+/// An order that three meshes show counts if it is the known one times a factor in this range.
+const ORDERS: RangeInclusive<f64> = 0.5..=2.5;
+/// An estimate is not better than this part of what extrapolation adds (Roache's grid convergence index).
+const LEAST_SHARE: f64 = 0.25;
+
+/// The order with which the critical speed of this kind converges: the error falls as n to the power of minus this.
+///
+/// Flutter is an eigenvalue of linear elements and has the order 2. A divergence is where the flow of cable reaches the
+/// speed of waves, nearly always at the winch; on a mesh that is decided by the last element's mean, half an element away
+/// from there, which is of order 1 (docs/theory.md section 10).
+pub fn known_order(kind: Kind) -> f64 {
+    match kind {
+        Kind::Flutter => 2.0,
+        Kind::Divergence => 1.0,
+    }
+}
+
+/// The orders that fine enough meshes show. Between them lies the known one; a divergence shows more than 1 by about
+/// 1/ln n. Where meshes show another, all that extrapolation adds is in doubt.
+fn settled_orders(kind: Kind) -> RangeInclusive<f64> {
+    match kind {
+        Kind::Flutter => 1.8..=2.2,
+        Kind::Divergence => 0.9..=1.5,
+    }
+}
 
 /// What the critical speeds on several meshes say about n → ∞.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,13 +49,26 @@ pub enum Convergence {
 pub struct Extrapolation {
     /// In m/s.
     pub limit: f64,
+    /// The limit lies within this of [`Self::limit`], in m/s: an estimate, not a bound.
+    pub uncertainty: f64,
+    /// The same of the crossing mode's frequency, in Hz.
+    pub frequency: Estimate,
     /// The error falls as n to the power of minus this.
     pub order: f64,
-    /// Whether the order was found from three meshes; else it is the theoretical one, 2.
+    /// Whether the order was found from three meshes; else it is the [known one](known_order).
     pub estimated: bool,
-    /// The critical speed on today's mesh less the limit, in m/s; `None` where it is not among the meshes or has no
-    /// critical speed.
+    /// The critical speed on today's mesh less the limit, in m/s; `None` where it is not among the meshes, has no
+    /// critical speed, or one of another kind, cable or mode.
     pub error: Option<f64>,
+}
+
+/// A limit and how far off it may be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The limit as n → ∞.
+    pub limit: f64,
+    /// The limit lies within this of it: an estimate, not a bound.
+    pub uncertainty: f64,
 }
 
 /// Why the limit cannot be told.
@@ -42,7 +78,7 @@ pub enum Doubt {
     NoneCritical,
     /// A critical speed on one mesh only.
     TooFew,
-    /// Kind, responsible cable or mode change from the last mesh but one to the finest.
+    /// Kind, responsible cable or mode are not the same on the finest meshes.
     Changes,
     /// The differences between meshes do not shrink as they should: the meshes are too coarse.
     Unsettled,
@@ -51,10 +87,13 @@ pub enum Doubt {
 /// The limit of the critical speed as n → ∞ from `meshes`, each elements per cable and verdict, and the error with
 /// `today` elements.
 ///
-/// Of the finest meshes that agree in kind, cable and (to a quarter) frequency: with v at n, 2n and 4n elements the
-/// order is p = log₂ ((v₂ₙ − vₙ)/(v₄ₙ − v₂ₙ)) and the limit v₄ₙ + (v₄ₙ − v₂ₙ)/(2ᵖ − 1). Where there are no three such
-/// meshes, or they show no order from 1 to 3 although the differences shrink, p = 2 and the limit comes from the two
-/// finest meshes. Meshes of which nothing is known are passed over.
+/// With v at n, 2n and 4n elements, 4n the finest mesh, the order seen is p = log₂ ((v₂ₙ − vₙ)/(v₄ₙ − v₂ₙ)), and the
+/// limit that an order p promises is v₄ₙ + (v₄ₙ − v₂ₙ)/(2ᵖ − 1). What the order seen and the [known one](known_order)
+/// promise are on either side of the limit once the meshes are fine enough; their middle is told, and their distance is
+/// how far it may be off, but at least a quarter of what extrapolation adds to v₄ₙ, and all of that where the order seen is
+/// not one of fine meshes. Where there are only two meshes, the known order is taken, and the whole of what extrapolation
+/// adds is in doubt. The meshes used must agree in kind, cable and (to a quarter) frequency. Meshes of
+/// which nothing is known are passed over.
 pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
     let mut meshes: Vec<&(usize, Verdict)> =
         meshes.iter().filter(|(n, verdict)| *n > 0 && verdict.status() != Status::Failed).collect();
@@ -62,50 +101,88 @@ pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
     meshes.dedup_by_key(|(n, _)| *n);
     let critical: Vec<(usize, Option<&Critical>)> =
         meshes.iter().map(|(n, verdict)| (*n, verdict.critical())).collect();
-    let Some(&(finest, Some(at_finest))) = critical.last() else { return Convergence::Unknown(Doubt::NoneCritical) };
-
-    // The finest meshes that show one mode, the finest first.
-    let mut alike = vec![(finest, at_finest)];
-    for &(n, coarser) in critical.iter().rev().skip(1) {
-        let finer = alike[alike.len() - 1].1;
-        match coarser.filter(|coarser| same_mode(coarser, finer)) {
-            Some(coarser) => alike.push((n, coarser)),
-            None => break,
+    let Some((_, Some(_))) = critical.last() else { return Convergence::Unknown(Doubt::NoneCritical) };
+    if critical.iter().filter(|(_, critical)| critical.is_some()).count() < 2 {
+        return Convergence::Unknown(Doubt::TooFew);
+    }
+    let at = |n: usize| critical.iter().position(|(other, _)| *other == n);
+    let thrice = (0..critical.len()).rev().find_map(|i| {
+        let n = critical[i].0;
+        let (half, quarter) = (at(n / 2)?, at(n / 4)?);
+        n.is_multiple_of(4).then_some([i, half, quarter])
+    });
+    let last = critical.len() - 1;
+    let used = thrice.map_or_else(|| vec![last, last - 1], Vec::from);
+    // Those used must show one mode, and finer ones as well.
+    let mut mode = None;
+    for &(_, found) in used.iter().rev().map(|&i| &critical[i]).chain(&critical[used[0]..]) {
+        match (found, mode) {
+            (Some(found), Some(before)) if !same_mode(before, found) => return Convergence::Unknown(Doubt::Changes),
+            (None, _) => return Convergence::Unknown(Doubt::Changes),
+            _ => mode = found,
         }
     }
-    let [(_, v), (coarser, before), ..] = alike[..] else {
-        let critical_before = critical.len() > 1 && critical[critical.len() - 2].1.is_some();
-        return Convergence::Unknown(if critical_before { Doubt::Changes } else { Doubt::TooFew });
-    };
-    let speed_at = |n: usize| alike.iter().find(|(other, _)| *other == n).map(|(_, critical)| critical.speed);
-    let rounding = ROUNDING * v.speed;
-    let mut order = None;
-    if finest % 4 == 0
-        && let (Some(half), Some(quarter)) = (speed_at(finest / 2), speed_at(finest / 4))
-    {
-        let (first, second) = (half - quarter, v.speed - half);
-        if second.abs() > rounding {
-            // Without a sign, NaN and infinite are outside of all orders.
-            order = Some((first / second).log2()).filter(|order| ORDERS.contains(order));
-            if order.is_none() && 2.0 * second.abs() > first.abs() {
-                return Convergence::Unknown(Doubt::Unsettled);
-            }
+    let (finest, Some(at_finest)) = critical[used[0]] else { return Convergence::Unknown(Doubt::NoneCritical) };
+    let coarser: Vec<(usize, &Critical)> =
+        used[1..].iter().filter_map(|&i| Some((critical[i].0, critical[i].1?))).collect();
+    let kind = at_finest.kind;
+    let known = known_order(kind);
+    let extrapolated = |value: &dyn Fn(&Critical) -> f64| {
+        if let [(_, half), (_, quarter)] = coarser[..] {
+            return from_three(value(quarter), value(half), value(at_finest), kind);
         }
-    }
-    let limit = match order {
-        Some(order) => v.speed + (v.speed - speed_at(finest / 2).unwrap_or(v.speed)) / (order.exp2() - 1.0),
-        None => v.speed + (v.speed - before.speed) / ((finest as f64 / coarser as f64).powf(ORDER) - 1.0),
+        let (n, before) = *coarser.first()?;
+        let value_here = value(at_finest);
+        let change = (value_here - value(before)) / ((finest as f64 / n as f64).powf(known) - 1.0);
+        let uncertainty = change.abs().max(ROUNDING * value_here.abs());
+        Some((Estimate { limit: value_here + change, uncertainty }, None))
     };
-    let at_today = critical.iter().find(|(n, _)| *n == today).and_then(|(_, critical)| *critical);
+    let Some((speed, order)) = extrapolated(&|critical| critical.speed) else {
+        return Convergence::Unknown(Doubt::Unsettled);
+    };
+    let frequencies = || coarser.iter().map(|(_, critical)| critical.frequency_hz());
+    // A frequency need not settle as the speed does: then it is as uncertain as it changes from mesh to mesh.
+    let frequency = extrapolated(&Critical::frequency_hz).map_or_else(
+        || {
+            let limit = at_finest.frequency_hz();
+            Estimate { limit, uncertainty: frequencies().map(|other| (other - limit).abs()).fold(0.0, f64::max) }
+        },
+        |(frequency, _)| frequency,
+    );
+    // Of the same mode as a mesh that was used; these are alike from one to the next.
+    let alike = |today: &&Critical| used.iter().filter_map(|&i| critical[i].1).any(|other| same_mode(today, other));
+    let at_today = at(today).and_then(|i| critical[i].1).filter(alike);
     Convergence::Limit(Extrapolation {
-        limit,
-        order: order.unwrap_or(ORDER),
+        limit: speed.limit,
+        uncertainty: speed.uncertainty,
+        frequency,
+        order: order.unwrap_or(known),
         estimated: order.is_some(),
-        error: at_today.map(|critical| critical.speed - limit),
+        error: at_today.map(|critical| critical.speed - speed.limit),
     })
 }
 
-fn same_mode(a: &Critical, b: &Critical) -> bool {
+/// The limit of values at n, 2n and 4n elements, and the order seen where the values tell one; `None` where they do not
+/// settle.
+fn from_three(quarter: f64, half: f64, finest: f64, kind: Kind) -> Option<(Estimate, Option<f64>)> {
+    let known = known_order(kind);
+    let (first, second) = (half - quarter, finest - half);
+    let rounding = ROUNDING * finest.abs();
+    let by_known = finest + second / (known.exp2() - 1.0);
+    if second.abs() <= rounding && first.abs() <= rounding {
+        return Some((Estimate { limit: by_known, uncertainty: rounding }, None));
+    }
+    // Without a sign, NaN and infinite are outside of all orders.
+    let order = Some((first / second).log2()).filter(|order| ORDERS.contains(&(order / known)))?;
+    let by_seen = finest + second / (order.exp2() - 1.0);
+    let limit = 0.5 * (by_known + by_seen);
+    let share = if settled_orders(kind).contains(&order) { LEAST_SHARE } else { 1.0 };
+    let uncertainty = (by_known - by_seen).abs().max(share * (limit - finest).abs()).max(rounding);
+    Some((Estimate { limit, uncertainty }, Some(order)))
+}
+
+/// Whether two meshes show one mode: the same kind and cable, and frequencies that differ by at most a quarter.
+pub fn same_mode(a: &Critical, b: &Critical) -> bool {
     let (one, other) = (a.frequency_hz(), b.frequency_hz());
     a.kind == b.kind && a.cable == b.cable && (one - other).abs() <= SAME_MODE * one.max(other)
 }

@@ -58,6 +58,31 @@ pub fn text_of(node: &Node<'_>) -> String {
     node.label().or_else(|| node.value()).unwrap_or_default()
 }
 
+/// Whether a text that follows `before` begins with a number that is `exact`, rounded to the digits that it has.
+pub fn rounds(text: &str, before: &str, exact: f64) -> bool {
+    let Some((_, rest)) = text.split_once(before) else { return false };
+    let number: String = rest.chars().take_while(|c| c.is_ascii_digit() || "+-.".contains(*c)).collect();
+    let decimals = number.split_once('.').map_or(0, |(_, decimals)| decimals.len());
+    // A full stop may end the sentence.
+    let Ok(shown) = number.trim_end_matches('.').parse::<f64>() else { return false };
+    let half = 0.5 * 10.0_f64.powi(-i32::try_from(decimals).expect("few digits"));
+    let digits = number.chars().filter(char::is_ascii_digit).collect::<String>();
+    let significant = digits.trim_start_matches('0').len();
+    (shown - exact).abs() <= half * 1.000_001 && (1..=6).contains(&significant)
+}
+
+/// The label that contains `part`.
+pub fn label(app: &Harness<'static, Tautline>, part: &str) -> String {
+    text_of(&app.get_by_label_contains(part))
+}
+
+/// The large figure of the critical speed.
+pub fn figure(app: &Harness<'static, Tautline>) -> String {
+    let texts = app.get_all_by(|_| true).map(|node| text_of(&node));
+    let is_figure = |text: &String| text.strip_suffix(" m/s").is_some_and(|number| number.parse::<f64>().is_ok());
+    texts.into_iter().find(is_figure).expect("a critical speed")
+}
+
 pub fn app() -> Harness<'static, Tautline> {
     app_with(paper(), SIZE, Theme::Light)
 }

@@ -18,7 +18,7 @@ pub use view::View;
 
 use crate::app::command::Command;
 use crate::app::state::{Plot, UiState};
-use crate::app::{Facts, series};
+use crate::app::{Facts, digits, series};
 use crate::compute::protocol::Topic;
 
 /// What the canvas keeps from frame to frame.
@@ -67,7 +67,7 @@ pub fn ui(
     // The marker belongs to the diagram beside it, and to one pose.
     let polar = studies.shown(Topic::Polar).filter(|shown| shown.current && state.plot == Plot::Directions);
     if let Some((direction, speed)) = polar.and_then(|shown| series::worst_direction(shown.known)) {
-        paint::worst(&painter, ui.visuals(), &view, &scene, direction, speed);
+        paint::worst(&painter, ui.visuals(), &view, &scene, direction, &digits::like(speed, facts.share()));
     }
     if state.map.on {
         map::point(ui, &painter, &background, &view, facts, commands);

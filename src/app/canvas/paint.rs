@@ -159,7 +159,7 @@ pub fn arrow_legend(painter: &Painter, visuals: &Visuals, rect: Rect, arrow: Arr
 }
 
 /// A dashed arrow in the direction with the lowest critical speed, with that speed in m/s.
-pub fn worst(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, direction: [f64; 2], speed: f64) {
+pub fn worst(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, direction: [f64; 2], speed: &str) {
     let colour = theme::warning(visuals);
     let platform = view.pos_in_ui(scene.platform);
     let ahead = View::direction_in_ui(direction);
@@ -173,7 +173,7 @@ pub fn worst(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, d
     ));
     let head = vec![tip, tip - ahead * 12.0 + across * 6.0, tip - ahead * 12.0 - across * 6.0];
     painter.add(Shape::convex_polygon(head, visuals.extreme_bg_color, Stroke::new(2.0, colour)));
-    let text = format!("worst: {speed:.2} m/s");
+    let text = format!("worst: {speed} m/s");
     let galley = painter.layout_no_wrap(text, FontId::proportional(12.0), colour);
     let middle = tip + ahead * (8.0 + 0.5 * (galley.size() * ahead.abs()).length());
     let room = Rect::from_center_size(middle, galley.size());

@@ -4,10 +4,12 @@ use eframe::egui::{Label, RichText, Spinner, Ui};
 
 use crate::app::Facts;
 use crate::app::answers::CriticalState;
+use crate::app::certainty::Certainty;
 use crate::app::meaning::Explain as _;
-use crate::app::theme;
+use crate::app::{digits, theme};
 use crate::compute::protocol::CriticalAnswer;
-use crate::scenario::report::KindReport;
+use crate::scenario::Scenario;
+use crate::scenario::report::{CriticalReport, KindReport};
 
 /// What the criterion means; also the tooltip of the figure.
 const FROZEN_TIME: &str = "The critical speed of this method is where an eigenvalue of the robot, frozen at this moment \
@@ -71,25 +73,44 @@ fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool
         ui.label(format!("Stable up to {} m/s, the limit of the search.", answer.searched_up_to));
         return;
     };
-    let figure = RichText::new(format!("{:.4} m/s", critical.speed)).size(34.0).strong();
-    ui.add(Label::new(figure.color(shade(visuals.strong_text_color())))).explained(FROZEN_TIME);
+    // What is certain belongs to the answer on show, not to an old one.
+    let certainty = if current { facts.certainty } else { Certainty::Unknown };
+    let elements = document.scenario.elements_per_cable;
+    let figure = format!("{} m/s", digits::certain(critical.speed, certainty.speed()));
+    let figure = RichText::new(figure).size(34.0).strong().color(shade(visuals.strong_text_color()));
+    let exact = certainty.explained(critical, elements);
+    // On the same line, so that nothing moves when it becomes known.
+    ui.horizontal(|ui| {
+        ui.add(Label::new(figure)).explained(format!("{exact}\n\n{FROZEN_TIME}"));
+        if let Some(note) = certainty.note(critical) {
+            ui.add(Label::new(RichText::new(note).weak()).truncate()).explained(&exact);
+        }
+    });
+    if let Some(why) = at_rest(critical, &document.scenario) {
+        ui.label(why);
+    }
     let rate = answers.pose().and_then(|pose| pose.report.cables.get(critical.cable - 1)).map(|c| c.length_rate);
     let moving = rate.map_or("", |rate| if rate < 0.0 { ", being reeled in" } else { ", being paid out" });
     let kind = match critical.kind {
-        KindReport::Flutter => format!("Flutter at {}", settings.frequency_text(critical.frequency_hz, 4)),
+        KindReport::Flutter => {
+            format!("Flutter at {}", settings.frequency_text(critical.frequency_hz, certainty.frequency_hz()))
+        }
         KindReport::Divergence => "Divergence (no oscillation)".into(),
     };
     ui.colored_label(shade(visuals.text_color()), format!("{kind} · cable {}{moving}", critical.cable));
 
     let speed = document.scenario.motion.speed;
     let margin = critical.speed - speed;
-    let today = if margin > 0.0 {
+    let size = digits::three_at_most(margin.abs(), certainty.speed());
+    let today = if certainty.speed().is_some_and(|off| off >= margin.abs()) && critical.speed > 0.0 {
+        RichText::new(format!("▲ Today's {speed:.2} m/s: the mesh leaves open whether that is below or above it"))
+            .color(shade(theme::warning(&visuals)))
+    } else if margin > 0.0 {
         let percent = 100.0 * margin / critical.speed;
-        RichText::new(format!("● Today's {speed:.2} m/s is {margin:.2} m/s ({percent:.0} %) below it"))
+        RichText::new(format!("● Today's {speed:.2} m/s is {size} m/s ({percent:.0} %) below it"))
             .color(shade(theme::calm(&visuals)))
     } else {
-        RichText::new(format!("▲ Today's {speed:.2} m/s is {:.2} m/s above it", -margin))
-            .color(shade(theme::warning(&visuals)))
+        RichText::new(format!("▲ Today's {speed:.2} m/s is {size} m/s above it")).color(shade(theme::warning(&visuals)))
     };
     ui.label(today);
     let Some(pose) = answers.pose() else { return };
@@ -97,7 +118,8 @@ fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool
         let (word, colour) =
             if stable { ("Stable", theme::calm(&visuals)) } else { ("Unstable", theme::warning(&visuals)) };
         let pose_shade = if answers.pose_is_current() { colour } else { visuals.weak_text_color() };
-        let growth = pose.report.max_growth_rate.map(|growth| format!(": growth rate {growth:.4} 1/s"));
+        let growth =
+            pose.report.max_growth_rate.map(|growth| format!(": growth rate {} 1/s", digits::certain(growth, None)));
         ui.colored_label(pose_shade, format!("{word} at today's speed{}", growth.unwrap_or_default()));
     }
     if let Some(reason) = &pose.report.reason {
@@ -105,25 +127,45 @@ fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool
     }
 }
 
+/// Why the critical speed is zero, where it is.
+pub fn at_rest(critical: &CriticalReport, scenario: &Scenario) -> Option<&'static str> {
+    let undamped = scenario.damping.alpha == 0.0 && scenario.damping.beta == 0.0;
+    (critical.speed == 0.0).then_some(if undamped {
+        "Without damping every cable that is reeled in looks unstable at any speed, however low: the criterion freezes \
+         time, and nothing stands against it. Give α or β a value."
+    } else {
+        "It is unstable at rest already."
+    })
+}
+
 /// The pinned design's critical speed, and how far the present one is from it.
 fn difference(ui: &mut Ui, facts: Facts<'_>, answer: Option<&CriticalAnswer>) {
     let Some(pinned) = facts.pinned else { return };
     let now = answer.and_then(|answer| answer.critical.as_ref());
     let not_known = |answer: Option<&CriticalAnswer>| answer.is_some_and(|answer| answer.failure.is_some());
+    let text = |critical: &CriticalReport, certainty: Certainty| digits::certain(critical.speed, certainty.speed());
     let text = match (pinned.critical(), now) {
-        (Some(before), None) if not_known(answer) => format!("Pinned: {:.4} m/s. Now not known", before.speed),
+        _ if !pinned.is_complete() => "Pinned, being computed".into(),
+        (Some(before), None) if not_known(answer) => {
+            format!("Pinned: {} m/s. Now not known", text(before, pinned.certainty()))
+        }
         (None, _) if not_known(pinned.search()) => "Pinned: not known".into(),
         (Some(before), Some(now)) => {
-            let percent = 100.0 * (now.speed - before.speed) / before.speed;
             let (hertz, unit) = facts.settings.hertz();
             let frequency = (now.frequency_hz - before.frequency_hz) * hertz;
             let difference = now.speed - before.speed;
-            format!(
-                "Pinned: {:.4} m/s. Now {difference:+.4} m/s ({percent:+.2} %), {frequency:+.4} {unit}",
-                before.speed
-            )
+            // What the mesh does to both it does to their difference in proportion.
+            let share = facts.share();
+            let [speed, frequency] = [difference, frequency].map(|value| digits::change_like(value, share));
+            let part = if before.speed > 0.0 {
+                let percent = 100.0 * difference / before.speed;
+                format!(" ({} %)", digits::change_like(percent, share))
+            } else {
+                String::new()
+            };
+            format!("Pinned: {} m/s. Now {speed} m/s{part}, {frequency} {unit}", text(before, pinned.certainty()))
         }
-        (Some(before), None) => format!("Pinned: {:.4} m/s. Now none", before.speed),
+        (Some(before), None) => format!("Pinned: {} m/s. Now none", text(before, pinned.certainty())),
         (None, Some(_)) => "Pinned: no critical speed found".into(),
         (None, None) => "Pinned: none found either".into(),
     };

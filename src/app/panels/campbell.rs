@@ -9,6 +9,7 @@ use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoints, P
 use super::{explain, few_lines, plot_height, study};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::digits;
 use crate::app::gestures;
 use crate::app::number::{self, Control, Unit};
 use crate::app::series::{self, Piece};
@@ -23,7 +24,7 @@ const AXIS: f32 = 46.0;
 pub fn ui(
     highest: &mut f64,
     ui: &mut Ui,
-    Facts { document, answers, studies, joined, settings, pinned }: Facts<'_>,
+    Facts { document, answers, studies, joined, settings, pinned, .. }: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
     let Some(Shown { known, current }) = study(ui, Topic::Campbell, studies, commands) else { return };
@@ -73,7 +74,7 @@ pub fn ui(
             .label_formatter(move |hover| {
                 let (HoverPosition::NearDataPoint { position: point, .. }
                 | HoverPosition::Elsewhere { position: point }) = hover;
-                Some(format!("{:.3} m/s\n{:.4} {unit}", point.x, point.y))
+                Some(format!("{:.3} m/s\n{} {unit}", point.x, digits::certain(point.y, None)))
             });
         let shown = plot.show(ui, |plot| {
             draw(plot, &visuals, pieces, (!growth).then_some(hertz), current);

@@ -8,6 +8,7 @@ use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, Pl
 use super::{explain, plot_height, study};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::digits;
 use crate::app::gestures;
 use crate::app::meaning::Explain as _;
 use crate::app::series::{self, degrees};
@@ -16,13 +17,15 @@ use crate::app::theme;
 use crate::compute::protocol::{Topic, VerdictAnswer};
 
 /// Draws the diagram and what follows from it.
-pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    let Facts { document, studies, pinned, .. } = facts;
+    let share = facts.share();
     let Some(Shown { known, current }) = study(ui, Topic::Polar, studies, commands) else { return };
     explain(
         ui,
         "From the middle outward: the critical speed of a motion through this pose in that direction, right is to the \
-         right and up is up. Where the line comes near the middle, the platform must move slowly. A gap is a direction \
-         without a critical speed. The worst direction is also on the canvas, as a dashed arrow.",
+         right and up is up. Where the line comes near the middle, the platform must move slowly. The curve breaks \
+         where another mode comes first and where there is no critical speed. The worst direction is also on the canvas, as a dashed arrow.",
     );
     let Some((worst, speed)) = series::worst_direction(known) else {
         let none = known.places.iter().flatten().next().is_some();
@@ -30,7 +33,7 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, comma
         return;
     };
     let all = if known.is_complete() { "" } else { " so far" };
-    ui.label(format!("Worst direction{all}: {:.0}°, critical at {speed:.4} m/s", degrees(worst)));
+    ui.label(format!("Worst direction{all}: {:.0}°, critical at {} m/s", degrees(worst), digits::like(speed, share)));
     let button = ui.button("Move in the worst direction");
     if button.explained("Sets the direction of the motion").clicked() {
         let mut scenario = document.scenario.clone();
@@ -47,11 +50,11 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, comma
         .show_y(false)
         .allow_scroll(false)
         .set_margin_fraction(eframe::egui::Vec2::splat(0.12))
-        .label_formatter(|hover| {
+        .label_formatter(move |hover| {
             let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
                 hover;
             let angle = degrees([point.x, point.y]);
-            Some(format!("{angle:.0}°\n{:.4} m/s", point.x.hypot(point.y)))
+            Some(format!("{angle:.0}°\n{} m/s", digits::like(point.x.hypot(point.y), share)))
         });
     let visuals = ui.visuals().clone();
     let today = document.scenario.motion.direction;
@@ -101,22 +104,15 @@ fn radius(verdict: Option<&VerdictAnswer>) -> Option<f64> {
     }
 }
 
-/// Once around and back to the first direction; gaps stay gaps.
+/// Once around, stretch by stretch; a direction that stands alone is a point.
 fn around(plot: &mut PlotUi<'_>, known: &Known, colour: Color32, style: LineStyle) {
-    let directions = series::directions(known);
-    let mut stretch = Vec::new();
-    let mut line = |stretch: Vec<[f64; 2]>| {
-        plot.line(Line::new("", PlotPoints::from(stretch)).color(colour).width(2.0).style(style));
-    };
-    for (direction, verdict) in directions.iter().chain(directions.first()) {
-        match radius(*verdict) {
-            Some(radius) => stretch.push(at(*direction, radius)),
-            // Not known yet is not a gap.
-            None if verdict.is_none() => {}
-            None => line(std::mem::take(&mut stretch)),
+    for stretch in series::around(known) {
+        if let [alone] = stretch[..] {
+            plot.points(Points::new("", vec![alone]).radius(2.0).color(colour));
+        } else {
+            plot.line(Line::new("", PlotPoints::from(stretch)).color(colour).width(2.0).style(style));
         }
     }
-    line(stretch);
 }
 
 /// Circles of equal speed and spokes every 30°.

@@ -8,6 +8,7 @@ use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
 use super::{STALE, explain, near, plot_height, with_modes};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::digits;
 use crate::app::gestures;
 use crate::app::pinned::Pinned;
 use crate::app::theme;
@@ -49,7 +50,7 @@ pub fn ui(
         .label_formatter(move |hover| {
             let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
                 hover;
-            Some(format!("{:.4} 1/s\n{:.4} {unit}", point.x, point.y))
+            Some(format!("{} 1/s\n{} {unit}", digits::certain(point.x, None), digits::certain(point.y, None)))
         });
     let shown = plot.show(ui, |plot| {
         plot.vline(VLine::new("Limit of stability", 0.0).color(visuals.weak_text_color()));

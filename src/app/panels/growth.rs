@@ -6,10 +6,10 @@ use egui_plot::{Corner, HLine, HoverPosition, Legend, Line, LineStyle, Plot, Plo
 use super::{STALE, explain, plot_height};
 use crate::app::Facts;
 use crate::app::gestures;
-use crate::app::theme;
+use crate::app::{digits, series, theme};
 
 /// Draws the plot.
-pub fn ui(ui: &mut Ui, Facts { document, answers, pinned, .. }: Facts<'_>) {
+pub fn ui(ui: &mut Ui, Facts { document, answers, pinned, certainty, .. }: Facts<'_>) {
     let curve = answers.curve().filter(|(points, _)| !points.is_empty());
     let (Some(answer), Some((curve, current))) = (answers.last_critical(), curve) else {
         ui.weak("No growth rates at this pose.");
@@ -26,7 +26,7 @@ pub fn ui(ui: &mut Ui, Facts { document, answers, pinned, .. }: Facts<'_>) {
         "At every speed there is one vibration that dies away most slowly, or grows fastest. This is its growth rate: \
          below zero everything dies away, above zero something grows.",
     );
-    let colour = if current { theme::calm(&visuals) } else { visuals.weak_text_color() };
+    let shade = |colour| if current { colour } else { visuals.weak_text_color() };
     let shown = Plot::new("growth")
         .x_axis_label("Speed (m/s)")
         .y_axis_label("Largest Re λ (1/s)")
@@ -37,7 +37,7 @@ pub fn ui(ui: &mut Ui, Facts { document, answers, pinned, .. }: Facts<'_>) {
         .label_formatter(|hover| {
             let (HoverPosition::NearDataPoint { position: point, .. } | HoverPosition::Elsewhere { position: point }) =
                 hover;
-            Some(format!("{:.3} m/s\n{:.4} 1/s", point.x, point.y))
+            Some(format!("{:.3} m/s\n{} 1/s", point.x, digits::certain(point.y, None)))
         })
         .show(ui, |plot| {
             plot.hline(HLine::new("", 0.0).color(visuals.weak_text_color()).allow_hover(false));
@@ -47,14 +47,23 @@ pub fn ui(ui: &mut Ui, Facts { document, answers, pinned, .. }: Facts<'_>) {
                 let line = Line::new("Pinned", curve).style(LineStyle::dashed_dense());
                 plot.line(line.color(colour).width(2.0));
                 if let Some(critical) = pinned.critical() {
-                    let line = VLine::new(format!("Pinned {:.3} m/s", critical.speed), critical.speed);
+                    let speed = digits::certain(critical.speed, pinned.certainty().speed());
+                    let line = VLine::new(format!("Pinned {speed} m/s"), critical.speed);
                     plot.vline(line.style(LineStyle::dashed_dense()).color(colour).width(1.5));
                 }
             }
-            let curve = PlotPoints::from(near_zero(curve));
-            plot.line(Line::new("Growth rate", curve).color(colour).width(2.0));
+            for piece in series::growth(&near_zero(curve)) {
+                let points: Vec<[f64; 2]> = piece.points.iter().map(|(speed, rate)| [*speed, rate.re]).collect();
+                let line = Line::new(if piece.unstable { "Grows" } else { "Dies out" }, PlotPoints::from(points));
+                plot.line(if piece.unstable {
+                    line.color(shade(theme::warning(&visuals))).width(3.0)
+                } else {
+                    line.color(shade(theme::calm(&visuals))).width(2.0)
+                });
+            }
             if let Some(critical) = &answer.critical {
-                let line = VLine::new(format!("Critical {:.3} m/s", critical.speed), critical.speed);
+                let speed = digits::certain(critical.speed, certainty.speed());
+                let line = VLine::new(format!("Critical {speed} m/s"), critical.speed);
                 plot.vline(line.color(theme::warning(&visuals)).width(2.0));
             }
             let speed = document.scenario.motion.speed;

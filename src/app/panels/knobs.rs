@@ -4,6 +4,7 @@ use eframe::egui::{Align2, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetIn
 
 use super::{STALE, explain};
 use crate::app::Facts;
+use crate::app::digits;
 use crate::app::fields::Number;
 use crate::app::meaning::Explain as _;
 use crate::app::state::UiState;
@@ -19,7 +20,9 @@ const NAME: f32 = 122.0;
 const VALUE: f32 = 58.0;
 
 /// Draws the bars; a click goes to the control.
-pub fn ui(ui: &mut Ui, state: &mut UiState, Facts { document, answers, pinned, .. }: Facts<'_>) {
+pub fn ui(ui: &mut Ui, state: &mut UiState, facts: Facts<'_>) {
+    let Facts { document, answers, pinned, .. } = facts;
+    let uncertainty = uncertainty(facts.share());
     let Some((found, current)) = answers.sensitivities() else {
         ui.weak("Not computed yet.");
         return;
@@ -47,17 +50,23 @@ pub fn ui(ui: &mut Ui, state: &mut UiState, Facts { document, answers, pinned, .
     let before = pinned.and_then(|pinned| pinned.sensitivities());
     for one in &found {
         let then = before.and_then(|all| all.iter().find(|other| other.knob == one.knob)).map(|other| other.speed);
-        if bar(ui, one, largest, then, current) {
+        if bar(ui, one, [largest, uncertainty], then, current) {
             state.reveal(control(one.knob, &document.scenario));
         }
     }
 }
 
 /// One bar; whether it was clicked.
-fn bar(ui: &mut Ui, one: &SensitivityReport, largest: f64, then: Option<f64>, current: bool) -> bool {
+fn bar(
+    ui: &mut Ui,
+    one: &SensitivityReport,
+    [largest, uncertainty]: [f64; 2],
+    then: Option<f64>,
+    current: bool,
+) -> bool {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
     let name = name(one.knob);
-    let value = format!("{:+.3}", one.speed);
+    let value = at_least_the_place(one.speed, uncertainty);
     let text = format!("{name}: {value} % per percent");
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &text));
     let visuals = ui.visuals();
@@ -91,8 +100,19 @@ fn bar(ui: &mut Ui, one: &SensitivityReport, largest: f64, then: Option<f64>, cu
     if let Some(then) = then {
         painter.vline(end(then), y, Stroke::new(2.0, theme::pinned(visuals)));
     }
-    let frequency = one.frequency.map_or_else(String::new, |change| format!("\nFrequency {change:+.3} % per percent"));
-    response.explained(format!("Critical speed {:+.4} % per percent{frequency}", one.speed)).clicked()
+    let frequency = one.frequency.map_or_else(String::new, |change| format!("\nFrequency {change:+} % per percent"));
+    response.explained(format!("Critical speed {:+} % per percent{frequency}", one.speed)).clicked()
+}
+
+/// How far a derivative may be off: the mesh that changes ln v by so much changes derivatives of ln v by about as much.
+/// Where nothing is known of it two decimals are shown, and never more than three.
+fn uncertainty(share: Option<f64>) -> f64 {
+    share.map_or(0.04, |share| share.max(0.004))
+}
+
+/// A derivative with its sign; one that is below what is certain is 0.
+fn at_least_the_place(value: f64, uncertainty: f64) -> String {
+    if value.abs() < 0.1 * uncertainty { "0".into() } else { digits::with_sign(value, Some(uncertainty)) }
 }
 
 fn name(knob: KnobReport) -> String {

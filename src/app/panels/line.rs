@@ -6,6 +6,7 @@ use egui_plot::{HoverPosition, Line, LineStyle, Plot, PlotPoints, PlotUi, Points
 use super::{explain, few_lines, plot_height, study};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::digits;
 use crate::app::gestures;
 use crate::app::series::Along;
 use crate::app::theme;
@@ -19,7 +20,9 @@ const AXIS: f32 = 46.0;
 type Value<'a> = &'a dyn Fn(&CriticalReport) -> f64;
 
 /// Draws the two plots.
-pub fn ui(ui: &mut Ui, Facts { document, studies, settings, pinned, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    let Facts { document, studies, settings, pinned, .. } = facts;
+    let share = facts.share();
     let shown = study(ui, Topic::Line, studies, commands);
     let Some((along, current)) = shown.and_then(|shown| Some((Along::new(shown.known)?, shown.current))) else {
         return;
@@ -27,7 +30,7 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, settings, pinned, .. }: Facts<
     let findings = along.findings().filter(|_| current);
     let mut text = "The platform passes every point of the straight line on which it moves. Above: the speed at which \
                     a vibration would begin to grow there. Below: that vibration's frequency; 0 Hz is divergence. \
-                    Steps are where another mode comes first."
+                    The curves break where another mode comes first."
         .to_owned();
     if let Some(findings) = &findings {
         text = format!("{text} {findings}");
@@ -73,7 +76,7 @@ pub fn ui(ui: &mut Ui, Facts { document, studies, settings, pinned, .. }: Facts<
                 let place = abscissa.label();
                 let (name, length) = place.split_once(" (").unwrap_or((place, "m)"));
                 let length = length.trim_end_matches(')');
-                Some(format!("{name} {:.3} {length}\n{:.4} {unit}", point.x, point.y))
+                Some(format!("{name} {:.3} {length}\n{} {unit}", point.x, digits::like(point.y, share)))
             });
         let shown = plot.show(ui, |plot| {
             if let Some(before) = &before {

@@ -1,11 +1,12 @@
 //! The table of modes; a click on a row chooses the mode whose shape moves on the canvas.
 
-use eframe::egui::{Label, Sense, Ui};
+use eframe::egui::{Label, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 
 use super::{STALE, explain, near, plot_height, with_modes};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::digits;
 use crate::app::meaning::Explain as _;
 use crate::app::pinned::Pinned;
 use crate::app::theme;
@@ -86,29 +87,44 @@ pub fn ui(
                 let sign = if growth > 0.0 { "▲ " } else { "" };
                 let from = before.and_then(|modes| nearest(modes, mode.eigenvalue));
                 let difference = |now: f64, then: Option<f64>| {
-                    then.map_or_else(String::new, |then| format!(" ({:+.4})", now - then))
+                    then.map_or_else(String::new, |then| format!(" ({})", digits::with_sign(now - then, None)))
                 };
                 let frequency = mode.frequency_hz * hertz;
                 let frequency_then = from.map(|mode| mode.frequency_hz * hertz);
                 let growth_then = from.map(|mode| mode.eigenvalue[0]);
                 let cells = [
                     name,
-                    format!("{frequency:.4}{}", difference(frequency, frequency_then)),
-                    format!("{sign}{growth:.4}{}", difference(growth, growth_then)),
-                    format!("{:.4}", mode.damping_ratio),
+                    digits::certain(frequency, None) + &difference(frequency, frequency_then),
+                    sign.to_owned() + &digits::certain(growth, None) + &difference(growth, growth_then),
+                    digits::certain(mode.damping_ratio, None),
                     cable,
                 ];
-                for cell in cells {
-                    row.col(|ui| {
-                        // A selectable label would keep the click from the row.
-                        ui.add(Label::new(cell).selectable(false));
-                    });
+                let exact = [
+                    String::new(),
+                    format!("{frequency} {unit}"),
+                    format!("{growth} 1/s"),
+                    mode.damping_ratio.to_string(),
+                    String::new(),
+                ];
+                for (i, (cell, exact)) in cells.into_iter().zip(exact).enumerate() {
+                    // Growth has its colour, and its sign beside it.
+                    row.col(|ui| show(ui, cell, exact, i == 2 && growth > 0.0));
                 }
                 if row.response().clicked() {
                     commands.push(Command::ChooseMode(near(choice, mode.eigenvalue)));
                 }
             });
         });
+}
+
+/// A cell of the table, with the exact number for those who rest on it.
+fn show(ui: &mut Ui, cell: String, exact: String, grows: bool) {
+    let colour = if grows { theme::warning(ui.visuals()) } else { ui.visuals().text_color() };
+    // A selectable label would keep the click from the row.
+    let response = ui.add(Label::new(RichText::new(cell).color(colour)).selectable(false));
+    if !exact.is_empty() {
+        response.on_hover_text(exact);
+    }
 }
 
 /// The mode with the nearest eigenvalue.

@@ -7,12 +7,13 @@ use eframe::egui::{Rect, Response, Slider, SliderClamping, Ui, Vec2};
 use super::{campbell, directions, eigenvalues, growth, knobs, line, mesh, modes};
 use crate::app::Facts;
 use crate::app::command::Command;
+use crate::app::digits;
 use crate::app::gestures;
 use crate::app::meaning::Explain as _;
 use crate::app::number::{self, Control, Unit};
-use crate::app::state::{Playback, Plot, UiState};
+use crate::app::state::{Playback, Plot, Settings, UiState};
 use crate::app::tone;
-use crate::compute::protocol::{ModeChoice, Which};
+use crate::compute::protocol::{ModeChoice, ModeShape, Which};
 use crate::robot::Linearisation;
 
 /// All plots with their names.
@@ -58,6 +59,25 @@ fn slider(ui: &mut Ui, slider: Slider<'_>, name: &str, meaning: &str) -> Respons
     slider.labelled_by(name.id)
 }
 
+/// Which mode is on show, in words.
+fn on_show(shape: &ModeShape, which: Which, settings: Settings) -> String {
+    let [growth, omega] = shape.eigenvalue;
+    let frequency = omega.abs() / std::f64::consts::TAU;
+    // Of a mode that does not oscillate there is no frequency to tell.
+    let how = if frequency > 0.0 {
+        settings.frequency_text(frequency, None)
+    } else {
+        format!("no oscillation, growth rate {} 1/s", digits::certain(growth, None))
+    };
+    let speed = digits::certain(shape.speed, None);
+    match (shape.is_critical, which) {
+        (true, _) if frequency > 0.0 => format!("Mode that becomes unstable: {how} at {speed} m/s"),
+        (true, _) => format!("Mode that becomes unstable: no oscillation, at {speed} m/s"),
+        (false, Which::Critical) => format!("No mode becomes unstable. The least stable one at {speed} m/s: {how}"),
+        (false, Which::Near(_)) => format!("Chosen mode: {how} at {speed} m/s"),
+    }
+}
+
 fn playback(
     playback: &mut Playback,
     ui: &mut Ui,
@@ -65,15 +85,9 @@ fn playback(
     choice: ModeChoice,
     commands: &mut Vec<Command>,
 ) {
-    let what = answers.shape().map_or_else(
-        || "No mode shape".to_owned(),
-        |shape| {
-            let which = if shape.is_critical { "Mode that becomes unstable" } else { "Chosen mode" };
-            let frequency = shape.eigenvalue[1].abs() / TAU;
-            format!("{which}: {} at {:.2} m/s", settings.frequency_text(frequency, 3), shape.speed)
-        },
+    ui.label(
+        answers.shape().map_or_else(|| "No mode shape".to_owned(), |shape| on_show(shape, choice.which, settings)),
     );
-    ui.label(what);
     ui.horizontal_wrapped(|ui| {
         let label = if playback.playing { "‖ Pause" } else { "▶ Play" };
         if ui.button(label).clicked() {
@@ -124,4 +138,34 @@ fn playback(
             ui.toggle_value(&mut playback.sound, "Sound").explained(tone::text(frequency, settings));
         }
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mode_that_does_not_oscillate_or_is_not_critical_is_not_told_as_one_that_is() {
+        let shape = |eigenvalue, is_critical| ModeShape {
+            eigenvalue,
+            speed: 5.0,
+            is_critical,
+            displacement: Vec::new(),
+            cable_share: Vec::new(),
+        };
+        let told = |shape: ModeShape, which| on_show(&shape, which, Settings::default());
+        let none = told(shape([-0.25, 0.0], false), Which::Critical);
+        assert_eq!(
+            none,
+            "No mode becomes unstable. The least stable one at 5.00 m/s: no oscillation, growth rate -0.250 1/s"
+        );
+        assert!(!none.contains("Hz") && !none.contains("Chosen"), "{none}");
+        assert!(told(shape([-0.25, 0.0], false), Which::Near([0.0, 0.0])).starts_with("Chosen mode: no oscillation"));
+        let swings = shape([0.0, std::f64::consts::TAU], true);
+        assert_eq!(told(swings, Which::Critical), "Mode that becomes unstable: 1.00 Hz at 5.00 m/s");
+        assert_eq!(
+            told(shape([0.0, 0.0], true), Which::Critical),
+            "Mode that becomes unstable: no oscillation, at 5.00 m/s"
+        );
+    }
 }

@@ -19,6 +19,9 @@ const DIRECTIONS: usize = 72;
 const SPEEDS: usize = 81;
 /// Meshes of the convergence study; today's joins them.
 const MESHES: [usize; 10] = [4, 6, 8, 10, 14, 20, 28, 40, 56, 80];
+/// Elements per cable of the finest mesh that tells which digits are certain: coarser ones may show another mode, finer
+/// ones take long.
+const FINE: [usize; 2] = [40, 80];
 /// Stands where the number of elements does not matter.
 const ANY_ELEMENTS: usize = 10;
 
@@ -112,9 +115,16 @@ fn is_inside(robot: &Robot, position: Vec2) -> bool {
     (0..2).all(|i| (low[i]..=high[i]).contains(&position[i]))
 }
 
-/// The studies of what is open: the map where it is switched on, and that of the plot on show. `critical` is the last
+/// The studies of what is open: the map where it is switched on, and that of the plot on show; where nothing is under way
+/// that could be disturbed, `at_rest`, also which digits of the critical speed are certain. `critical` is the last
 /// critical speed known, in m/s.
-pub fn wanted(scenario: &Scenario, state: &UiState, plot: Option<Plot>, critical: Option<f64>) -> Vec<Wish> {
+pub fn wanted(
+    scenario: &Scenario,
+    state: &UiState,
+    plot: Option<Plot>,
+    critical: Option<f64>,
+    at_rest: bool,
+) -> Vec<Wish> {
     let max_speed = DEFAULT_MAX_SPEED;
     let mut wishes = Vec::new();
     if state.map.on
@@ -135,10 +145,22 @@ pub fn wanted(scenario: &Scenario, state: &UiState, plot: Option<Plot>, critical
             StudyChoice::Campbell { to: highest_speed(scenario.motion.speed, critical), count: SPEEDS }
         }
         Some(Plot::Mesh) => StudyChoice::Convergence { counts: meshes(scenario.elements_per_cable), max_speed },
-        Some(Plot::Eigenvalues | Plot::Growth | Plot::Modes | Plot::Knobs) | None => return wishes,
+        Some(Plot::Eigenvalues | Plot::Growth | Plot::Modes | Plot::Knobs) | None => {
+            return [wishes, Vec::from_iter(certainty(scenario, at_rest && critical.is_some()))].concat();
+        }
     };
+    let meshes = at_rest && critical.is_some() && !matches!(study, StudyChoice::Convergence { .. });
     wishes.push(Wish::new(scenario, study));
+    wishes.extend(certainty(scenario, meshes));
     wishes
+}
+
+/// The study that tells which digits of the critical speed are certain: three meshes, each with twice the elements of the
+/// one before, the finest with four times today's where that is not much work.
+fn certainty(scenario: &Scenario, wanted: bool) -> Option<Wish> {
+    let quarter = (4 * scenario.elements_per_cable).clamp(FINE[0], FINE[1]) / 4;
+    let counts = vec![quarter, 2 * quarter, 4 * quarter];
+    wanted.then(|| Wish::new(scenario, StudyChoice::Convergence { counts, max_speed: DEFAULT_MAX_SPEED }))
 }
 
 /// Points of a map in a row and in a column.
@@ -189,7 +211,7 @@ mod tests {
         let before = presets::PRESETS[0].scenario();
         let mut after = before.clone();
         edit(&mut after);
-        let wish = |scenario| wanted(scenario, state, Some(state.plot), Some(11.3)).pop();
+        let wish = |scenario| wanted(scenario, state, Some(state.plot), Some(11.3), false).pop();
         wish(&before) != wish(&after)
     }
 
@@ -197,10 +219,29 @@ mod tests {
     fn only_what_is_open_is_wanted() {
         let paper = presets::PRESETS[0].scenario();
         let topics = |state: &UiState, plot| -> Vec<Topic> {
-            wanted(&paper, state, plot, None).iter().map(Wish::topic).collect()
+            wanted(&paper, state, plot, None, true).iter().map(Wish::topic).collect()
         };
         assert!(topics(&state(false, Plot::Modes), Some(Plot::Modes)).is_empty());
         assert_eq!(topics(&state(true, Plot::Mesh), Some(Plot::Mesh)), [Topic::Map, Topic::Convergence]);
+        // At rest, also which digits are certain, unless the plot of meshes says so.
+        let at_rest = |plot, critical, at_rest| -> Vec<Wish> {
+            wanted(&paper, &state(false, Plot::Modes), Some(plot), critical, at_rest)
+        };
+        let meshes = |wishes: Vec<Wish>| match &wishes[..] {
+            [Wish { study: StudyChoice::Convergence { counts, .. }, .. }] => counts.clone(),
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(meshes(at_rest(Plot::Modes, Some(11.3), true)), [10, 20, 40]);
+        assert_eq!(meshes(at_rest(Plot::Mesh, Some(11.3), true)).len(), MESHES.len());
+        assert!(at_rest(Plot::Modes, Some(11.3), false).is_empty(), "a drag is not disturbed");
+        assert!(at_rest(Plot::Modes, None, true).is_empty(), "there is nothing to be certain of");
+        assert_eq!(at_rest(Plot::Line, Some(11.3), true).len(), 2);
+        for (n, finest) in [(2, 40), (10, 40), (15, 60), (20, 80), (200, 80)] {
+            let scenario = Scenario { elements_per_cable: n, ..paper.clone() };
+            let wish = certainty(&scenario, true);
+            let Some(StudyChoice::Convergence { counts, .. }) = wish.map(|wish| wish.study) else { panic!("none") };
+            assert_eq!((counts[2], counts[1], counts[0]), (finest, finest / 2, finest / 4), "{n}");
+        }
         // On a phone the plots may be hidden.
         assert_eq!(topics(&state(true, Plot::Mesh), None), [Topic::Map]);
     }
@@ -225,7 +266,7 @@ mod tests {
         let wish = |quantity| {
             let mut state = state(true, Plot::Modes);
             state.map.quantity = quantity;
-            wanted(&paper, &state, None, None)
+            wanted(&paper, &state, None, None, true)
         };
         for quantity in [MapQuantity::Frequency, MapQuantity::Kind, MapQuantity::Cable] {
             assert_eq!(wish(quantity), wish(MapQuantity::Speed));

@@ -218,6 +218,12 @@ pub static CHECKS: &[Check] = &[
         unit: "m/s",
         run: robots::fine_mesh,
     },
+    Check {
+        name: "Straight cable reeled in along its own line: critical speed for ever finer meshes",
+        source: "closed form, sqrt(N λ/μ) of the platform's speed",
+        unit: "m/s",
+        run: robots::along_its_line,
+    },
 ];
 
 /// The limit of values at n and 2n elements whose error is a/n² + b/n⁴ + … (Richardson).

@@ -17,7 +17,7 @@ use crate::app::command::Command;
 use crate::app::meaning::Explain as _;
 use crate::app::state::{Camera, MapQuantity, MapView, Settings, UiState};
 use crate::app::studies::{Known, Shown, Stage, Studies};
-use crate::app::{Facts, series};
+use crate::app::{Facts, digits, series};
 use crate::compute::protocol::{
     AskedChoice, DirectionsChoice, Missing, PlaceAnswer, Revision, StudyChoice, Topic, VerdictAnswer,
 };
@@ -199,9 +199,10 @@ pub fn point(
     painter: &Painter,
     background: &Response,
     view: &View,
-    Facts { document, studies, settings, .. }: Facts<'_>,
+    facts: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
+    let Facts { document, studies, settings, .. } = facts;
     let Some(Shown { known, current }) = studies.shown(Topic::Map) else { return };
     let Some(grid) = known.wish.grid() else { return };
     let pointer = background.hover_pos().filter(|_| background.hovered() && !background.dragged());
@@ -210,7 +211,7 @@ pub fn point(
     {
         let at = grid.position(nearest);
         painter.circle_stroke(view.pos_in_ui(at.into()), 4.0, (1.5, ui.visuals().strong_text_color()));
-        let mut text = reading(known, nearest, at, settings);
+        let mut text = reading(known, nearest, at, settings, facts.share());
         if !current {
             text.push_str("\nOf an earlier state, being recomputed");
         }
@@ -231,11 +232,14 @@ pub fn point(
 }
 
 /// What is known at one of a map's points, in words.
-fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings) -> String {
+fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings, share: Option<f64>) -> String {
     let place = format!("At ({:.2}, {:.2}) m", at.x, at.y);
     let said = match known.places.get(index).and_then(Option::as_ref) {
         None => "not computed yet".into(),
-        Some(PlaceAnswer::Growth(Ok(rate))) => format!("growth rate {rate:.4} 1/s"),
+        Some(PlaceAnswer::Growth(Ok(rate))) => {
+            let word = if *rate > 0.0 { "grows" } else { "dies out" };
+            format!("{word}, growth rate {} 1/s", digits::certain(*rate, None))
+        }
         Some(PlaceAnswer::Growth(Err(Missing::Infeasible))) => NO_EQUILIBRIUM.into(),
         Some(PlaceAnswer::Growth(Err(Missing::Failed)) | PlaceAnswer::Spectrum(_) | PlaceAnswer::Modes(_)) => {
             NOT_COMPUTED.into()
@@ -247,7 +251,10 @@ fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings) -> St
             VerdictAnswer::NoneUpTo(speed) => format!("no critical speed up to {speed:.0} m/s"),
             VerdictAnswer::Critical(critical) => {
                 let kind = match critical.kind {
-                    KindReport::Flutter => format!("flutter at {}", settings.frequency_text(critical.frequency_hz, 4)),
+                    KindReport::Flutter => {
+                        let (hertz, unit) = settings.hertz();
+                        format!("flutter at {} {unit}", digits::like(critical.frequency_hz * hertz, share))
+                    }
                     KindReport::Divergence => "divergence".into(),
                 };
                 let worst = match known.wish.study {
@@ -256,7 +263,8 @@ fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings) -> St
                     }
                     _ => String::new(),
                 };
-                format!("critical speed {:.4} m/s{worst}\n{kind}, cable {}", critical.speed, critical.cable)
+                let speed = digits::like(critical.speed, share);
+                format!("critical speed {speed} m/s{worst}\n{kind}, cable {}", critical.cable)
             }
         },
     };

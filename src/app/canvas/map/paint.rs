@@ -9,6 +9,7 @@ use super::picture::{CLASSES, Cell, Picture};
 use super::{NO_EQUILIBRIUM, NOT_COMPUTED};
 use crate::app::Facts;
 use crate::app::canvas::View;
+use crate::app::digits;
 use crate::app::state::MapQuantity;
 use crate::app::theme;
 use crate::robot::Vec2 as WorldVec2;
@@ -59,6 +60,7 @@ impl Texture {
 /// The colour of what a point shows.
 fn colour(picture: &Picture, cell: Cell, visuals: &Visuals) -> Color32 {
     let colour = match cell {
+        Cell::Value(value) if picture.quantity == MapQuantity::Growth => theme::diverging(picture.part(value), visuals),
         Cell::Value(value) => theme::sequential(picture.part(value), visuals),
         Cell::Class(class) => theme::class(class),
         Cell::NoneUpTo => theme::calm(visuals).gamma_multiply(0.35),
@@ -75,6 +77,9 @@ pub fn patterns(painter: &Painter, visuals: &Visuals, view: &View, picture: &Pic
     }
     for area in picture.areas(Cell::NoneUpTo) {
         level_lines(painter, visuals, origin, view.rect_in_ui(area));
+    }
+    for line in picture.zero_line() {
+        painter.line_segment(line.map(|end| view.pos_in_ui(end)), limit(visuals));
     }
     let text = |at: [f64; 2], text: &str| {
         let at = view.pos_in_ui(at);
@@ -96,6 +101,11 @@ pub fn patterns(painter: &Painter, visuals: &Visuals, view: &View, picture: &Pic
         let [left, bottom, right, top] = area;
         text([0.5 * (left + right), 0.5 * (bottom + top)], "?");
     }
+}
+
+/// The line between what grows and what dies out.
+fn limit(visuals: &Visuals) -> Stroke {
+    Stroke::new(2.0, visuals.strong_text_color())
 }
 
 /// How a class is labelled.
@@ -220,12 +230,19 @@ pub fn legend(
             entry(&swatch, name);
         }
     }
-    if picture.cells.iter().any(|cell| picture.grows(*cell)) {
+    if let Some([low, high]) = picture.range.filter(|_| picture.quantity == MapQuantity::Growth) {
+        entry(&|square| _ = painter.rect_filled(square, 0.0, colour(picture, Cell::Value(low), visuals)), "dies out");
         let swatch = |square: Rect| {
+            painter.line_segment([square.left_center(), square.right_center()], limit(visuals));
+        };
+        entry(&swatch, "limit, 0");
+        let swatch = |square: Rect| {
+            painter.rect_filled(square, 0.0, colour(picture, Cell::Value(high), visuals));
+            painter.circle_filled(square.center(), 6.0, visuals.extreme_bg_color.gamma_multiply(0.75));
             let strong = visuals.strong_text_color();
             painter.text(square.center(), Align2::CENTER_CENTER, "▲", FontId::proportional(11.0), strong);
         };
-        entry(&swatch, "unstable");
+        entry(&swatch, "grows");
     }
     if picture.has(Cell::Infeasible) {
         entry(&|square| hatching(painter, visuals, square.min, square), NO_EQUILIBRIUM);
@@ -283,7 +300,7 @@ fn scale(painter: &Painter, visuals: &Visuals, bar: Rect, picture: &Picture, [lo
 /// Round values from `low` to `high`, about four, with their labels; the one value where all are equal.
 fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     if high - low <= 1e-9 * high.abs() {
-        return vec![(low, format!("{low:.4}"))];
+        return vec![(low, digits::certain(low, None))];
     }
     let step = super::super::paint::round_step((high - low) / 4.0);
     // At most five, and small.
@@ -310,6 +327,6 @@ mod tests {
         let labels = |low, high| ticks(low, high).into_iter().map(|(_, label)| label).collect::<Vec<_>>();
         assert_eq!(labels(0.3, 11.3), ["5", "10"]);
         assert_eq!(labels(-0.013, 0.02), ["-0.01", "0.00", "0.01", "0.02"]);
-        assert_eq!(labels(2.5, 2.5), ["2.5000"]);
+        assert_eq!(labels(2.5, 2.5), ["2.50"]);
     }
 }

@@ -40,8 +40,8 @@ pub struct Picture {
     pub quantity: MapQuantity,
     /// By point; what is not known yet shows what a coarser map would.
     pub cells: Vec<Cell>,
-    /// The least and the largest value, where there are any. Growth rates that far exceed all decay would hide where
-    /// it begins: they share the end of the range.
+    /// The least and the largest value, where there are any. Of growth rates zero is the middle, and those that far exceed
+    /// all decay would hide where it begins: they share the end of the range.
     pub range: Option<[f64; 2]>,
     /// Whether some values lie beyond the end of the range.
     pub beyond: bool,
@@ -64,7 +64,10 @@ impl Picture {
         });
         let largest = range.map(|[_, high]| high);
         let range = range.map(|[low, high]| match quantity {
-            MapQuantity::Growth if low < 0.0 => [low, high.min(-2.0 * low)],
+            MapQuantity::Growth => {
+                let end = if low < 0.0 { high.min(-2.0 * low).max(-low) } else { high };
+                [-end, end]
+            }
             _ => [low, high],
         });
         let none_up_to = known.places.iter().filter_map(|answer| match answer {
@@ -91,6 +94,49 @@ impl Picture {
     /// Whether something grows there at today's speed; only growth rates tell.
     pub fn grows(&self, cell: Cell) -> bool {
         self.quantity == MapQuantity::Growth && matches!(cell, Cell::Value(rate) if rate > 0.0)
+    }
+
+    /// Where growth rates are zero: lines from [x, y] to [x, y] in m, each within one rectangle of four neighbours. Where one
+    /// of the four has no value there is none.
+    pub fn zero_line(&self) -> Vec<[[f64; 2]; 2]> {
+        let Grid { nx, ny, .. } = self.grid;
+        let mut lines = Vec::new();
+        if self.quantity != MapQuantity::Growth {
+            return lines;
+        }
+        for (row, column) in (0..ny.saturating_sub(1)).flat_map(|row| (0..nx.saturating_sub(1)).map(move |c| (row, c)))
+        {
+            // Around the rectangle.
+            let corners = [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(up, right)| (row + up) * nx + column + right);
+            let rates = corners.map(|index| match self.cells[index] {
+                Cell::Value(rate) => Some(rate),
+                _ => None,
+            });
+            let [Some(a), Some(b), Some(c), Some(d)] = rates else { continue };
+            let rates = [a, b, c, d];
+            let crossing = |side: usize| {
+                let (from, to) = (side, (side + 1) % 4);
+                ((rates[from] > 0.0) != (rates[to] > 0.0)).then(|| {
+                    let part = rates[from] / (rates[from] - rates[to]);
+                    let [from, to] = [from, to].map(|corner| self.grid.position(corners[corner]));
+                    <[f64; 2]>::from(from + (to - from) * part)
+                })
+            };
+            match [crossing(0), crossing(1), crossing(2), crossing(3)] {
+                [Some(a), Some(b), Some(c), Some(d)] => {
+                    // A saddle: the value in the middle tells which corners belong together.
+                    let together = (rates.iter().sum::<f64>() > 0.0) == (rates[0] > 0.0);
+                    lines.extend(if together { [[a, b], [c, d]] } else { [[d, a], [b, c]] });
+                }
+                some => {
+                    let ends: Vec<[f64; 2]> = some.into_iter().flatten().collect();
+                    if let [from, to] = ends[..] {
+                        lines.push([from, to]);
+                    }
+                }
+            }
+        }
+        lines
     }
 
     /// What is to be seen at `pos_in_world`: between points with values the value in between, else what the nearest
@@ -302,7 +348,7 @@ mod tests {
 
         let rates = known(|column, _| Some(PlaceAnswer::Growth(Ok(if column > 30 { 200.0 } else { -0.2 }))));
         let picture = Picture::new(&rates, MapQuantity::Growth).expect("a map");
-        assert_eq!((picture.range, picture.beyond), (Some([-0.2, 0.4]), true));
+        assert_eq!((picture.range, picture.beyond), (Some([-0.4, 0.4]), true));
         assert!(picture.labels().iter().all(|(_, cell)| *cell == Cell::Value(200.0)) && !picture.labels().is_empty());
     }
 
@@ -322,9 +368,44 @@ mod tests {
                 (picture.at(Vec2::new(-5.0, 0.0)), picture.at(Vec2::new(5.0, 0.0))),
                 (Cell::Failed, Cell::Infeasible)
             );
-            let at = |index| super::super::reading(&half, index, Vec2::zeros(), Settings::default());
+            let at = |index| super::super::reading(&half, index, Vec2::zeros(), Settings::default(), None);
             assert!(at(0).contains("could not be computed") && !at(0).contains("equilibrium"), "{}", at(0));
             assert!(at(40).contains("no equilibrium"), "{}", at(40));
+        }
+    }
+
+    /// Zero is the middle of the scale whatever the values are, and the line at zero is where what is seen is zero.
+    #[test]
+    fn the_line_at_zero_parts_what_grows_from_what_dies_out() {
+        let rate = |x: f64, y: f64| 0.1 * (x * x / 30.0 + y * y / 8.0 - 1.0);
+        let at = |column: usize, row: usize| (column as f64 * 0.5 - 10.0, row as f64 * 0.5 - 5.0);
+        let round = known(|column, row| {
+            let (x, y) = at(column, row);
+            Some(PlaceAnswer::Growth(Ok(rate(x, y))))
+        });
+        let picture = Picture::new(&round, MapQuantity::Growth).expect("a map");
+        let Some([low, high]) = picture.range else { panic!("no range") };
+        let middle = |picture: &Picture| (picture.part(0.0) - 0.5).abs() < 1e-12;
+        assert!((low + high).abs() < 1e-12 && middle(&picture), "{low} {high}");
+        assert!(picture.part(0.01) > 0.5 && picture.part(-0.01) < 0.5);
+        let lines = picture.zero_line();
+        assert!(lines.len() > 40, "{}", lines.len());
+        for end in lines.iter().flatten() {
+            let Cell::Value(seen) = picture.at(Vec2::from(*end)) else { panic!("no value on the line") };
+            assert!(seen.abs() < 1e-12, "{seen} at {end:?}");
+            assert!(rate(end[0], end[1]).abs() < 2e-3, "{end:?}");
+        }
+        // Every end but those at the border belongs to two lines.
+        for end in lines.iter().flatten().filter(|end| end[1].abs() < 4.999) {
+            let near = |other: &&[f64; 2]| (other[0] - end[0]).hypot(other[1] - end[1]) < 1e-9;
+            assert_eq!(lines.iter().flatten().filter(near).count(), 2, "{end:?}");
+        }
+        // All of one sign, or with gaps: no line, and zero in the middle all the same.
+        for sign in [-1.0, 1.0] {
+            let one_sign =
+                known(|column, row| (column != 7).then_some(PlaceAnswer::Growth(Ok(sign * (0.1 + row as f64)))));
+            let picture = Picture::new(&one_sign, MapQuantity::Growth).expect("a map");
+            assert!(picture.zero_line().is_empty() && middle(&picture));
         }
     }
 

@@ -1,16 +1,20 @@
 //! What the plots of studies show, without colours: answers by place turned into points and sentences.
 
+mod findings;
+mod segments;
+
 use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
 use crate::app::studies::Known;
 use crate::compute::protocol::{PlaceAnswer, StudyChoice, VerdictAnswer};
-use crate::scenario::report::{CriticalReport, KindReport, sentence};
+use crate::scenario::report::{CriticalReport, KindReport};
 use crate::stability::{Critical, Kind, first_lowest};
 use crate::study::campbell::Track;
 use crate::study::convergence::{self, Convergence};
 use crate::study::{Verdict, compass, evenly};
+use segments::{Sample, segments};
 
 /// How a line's places are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,11 +38,11 @@ impl Abscissa {
     }
 
     /// A place in words.
-    pub fn place(self, at: f64) -> String {
+    pub fn place(self, at: f64, decimals: usize) -> String {
         match self {
-            Self::X => format!("x = {at:.1} m"),
-            Self::Y => format!("y = {at:.1} m"),
-            Self::Along => format!("{at:.1} m"),
+            Self::X => format!("x = {at:.decimals$} m"),
+            Self::Y => format!("y = {at:.decimals$} m"),
+            Self::Along => format!("{at:.decimals$} m"),
         }
     }
 }
@@ -89,17 +93,19 @@ impl Along {
         }
     }
 
-    /// Stretches with a critical speed, as points (m, `value`). A change of cable is no gap; anything else is.
+    /// What is known at each place: critical speed in m/s and frequency in Hz; `None` where nothing is critical.
+    fn samples(&self) -> Vec<Option<Sample>> {
+        self.points.iter().map(|(at, verdict)| sample(*at, Some(verdict))).collect()
+    }
+
+    /// Stretches of one mode, as points (m, `value`): where another mode comes first, and where nothing is critical, one
+    /// ends.
     pub fn stretches(&self, value: impl Fn(&CriticalReport) -> f64) -> Vec<Vec<[f64; 2]>> {
-        let mut stretches = vec![Vec::new()];
-        for (at, verdict) in &self.points {
-            match (verdict, stretches.last_mut()) {
-                (VerdictAnswer::Critical(critical), Some(last)) => last.push([*at, value(critical)]),
-                _ => stretches.push(Vec::new()),
-            }
-        }
-        stretches.retain(|stretch| !stretch.is_empty());
-        stretches
+        let point = |i: usize| {
+            let (at, verdict) = &self.points[i];
+            critical(verdict).map(|critical| [*at, value(critical)])
+        };
+        segments(&self.samples()).into_iter().map(|segment| segment.filter_map(point).collect()).collect()
     }
 
     /// Stretches without an equilibrium, from half-way to the neighbour on either side.
@@ -120,44 +126,29 @@ impl Along {
         stretches
     }
 
-    /// The paper's two findings, each where it holds: toward the border the critical speed falls and the frequency
-    /// rises. Compared are the outer parts of the longest stretch with its middle.
+    /// The paper's two findings, each on the stretches where it holds from place to place: toward the border the critical
+    /// speed falls, and the frequency rises.
     pub fn findings(&self) -> Option<String> {
-        let longest = |value: fn(&CriticalReport) -> f64| {
-            self.stretches(value).into_iter().max_by_key(Vec::len).filter(|stretch| stretch.len() >= 9)
-        };
-        let (speeds, frequencies) = (longest(|c| c.speed)?, longest(|c| c.frequency_hz)?);
-        let falls = ends(&speeds, |end, middle| end < 0.95 * middle);
-        let rises = ends(&frequencies, |end, middle| end > 1.05 * middle);
-        let [left, right] = [speeds[0][0], speeds[speeds.len() - 1][0]].map(|at| self.abscissa.place(at));
-        let toward = |at: [bool; 2]| match at {
-            [true, true] => Some(format!("toward both ends of the taut stretch ({left} and {right})")),
-            [true, false] => Some(format!("toward {left}")),
-            [false, true] => Some(format!("toward {right}")),
-            [false, false] => None,
-        };
-        let text = match (toward(falls), toward(rises)) {
-            (Some(falls), Some(rises)) if falls == rises => {
-                format!("{falls} the critical speed falls and the frequency rises, as the paper found")
-            }
-            (Some(falls), Some(rises)) => {
-                format!("the critical speed falls {falls}, and the frequency rises {rises}, as the paper found")
-            }
-            (Some(falls), None) => format!("{falls} the critical speed falls, as the paper found"),
-            (None, Some(rises)) => format!("{rises} the frequency rises, as the paper found"),
-            (None, None) => return None,
-        };
-        Some(sentence(&text))
+        let samples = self.samples();
+        let mut found = findings::findings(&samples);
+        found.retain(|finding| finding.holds(&samples));
+        findings::told(self, &found)
     }
 }
 
-/// For the left and the right end of a stretch, whether it `holds` of the mean of the last sixth and that of the middle
-/// third. A single point says little: at the very border another mode may come first.
-fn ends(stretch: &[[f64; 2]], holds: impl Fn(f64, f64) -> bool) -> [bool; 2] {
-    let mean = |points: &[[f64; 2]]| points.iter().map(|point| point[1]).sum::<f64>() / points.len() as f64;
-    let (count, third, sixth) = (stretch.len(), stretch.len() / 3, (stretch.len() / 6).max(1));
-    let middle = mean(&stretch[third..count - third]);
-    [holds(mean(&stretch[..sixth]), middle), holds(mean(&stretch[count - sixth..]), middle)]
+/// The critical speed, where there is one.
+pub fn critical(verdict: &VerdictAnswer) -> Option<&CriticalReport> {
+    match verdict {
+        VerdictAnswer::Critical(critical) => Some(critical),
+        _ => None,
+    }
+}
+
+/// What a place of a curve of critical speeds shows, where there is one.
+fn sample(at: f64, verdict: Option<&VerdictAnswer>) -> Option<Sample> {
+    let critical = critical(verdict?)?;
+    let (values, mode) = ([critical.speed, critical.frequency_hz], Some((critical.kind, critical.cable)));
+    Some(Sample { at, values, mode })
 }
 
 /// The directions of a polar diagram: the unit vector and what is known, counterclockwise.
@@ -168,6 +159,29 @@ pub fn directions<'a>(known: &'a Known) -> Vec<([f64; 2], Option<&'a VerdictAnsw
         _ => (compass(i, count).into(), None),
     };
     known.places.iter().enumerate().map(place).collect()
+}
+
+/// The stretches of a polar diagram with one mode each, as points (critical speed times direction, in m/s). Once around
+/// and back to the first direction; what is not known yet is no gap.
+pub fn around(known: &Known) -> Vec<Vec<[f64; 2]>> {
+    let all = directions(known);
+    let known: Vec<([f64; 2], &VerdictAnswer)> =
+        all.iter().chain(all.first()).filter_map(|(direction, verdict)| Some((*direction, (*verdict)?))).collect();
+    let mut turned = 0.0;
+    let mut samples = Vec::with_capacity(known.len());
+    for (i, (direction, verdict)) in known.iter().enumerate() {
+        if i > 0 {
+            let before = known[i - 1].0;
+            // Counterclockwise by less than a whole turn.
+            turned += (degrees(*direction) - degrees(before)).rem_euclid(360.0);
+        }
+        samples.push(sample(turned, Some(verdict)));
+    }
+    let point = |i: usize| {
+        let ([x, y], verdict) = known[i];
+        critical(verdict).map(|critical| [critical.speed * x, critical.speed * y])
+    };
+    segments(&samples).into_iter().map(|segment| segment.filter_map(point).collect()).collect()
 }
 
 /// The direction with the lowest critical speed, and that speed in m/s.
@@ -221,10 +235,25 @@ pub struct Piece {
     pub points: Vec<(f64, Complex<f64>)>,
 }
 
-/// The pieces of a mode's line; where stability changes, they share the point at which the growth rate passes zero.
+/// The pieces of a mode's line; where stability changes, they share the point at which the growth rate passes zero. Where
+/// the line jumps, because speeds are too far apart to tell modes apart, one piece ends.
 pub fn pieces(track: &Track) -> Vec<Piece> {
+    let sample = |&(at, value): &(f64, Complex<f64>)| Some(Sample { at, values: [value.re, value.im], mode: None });
+    let samples: Vec<Option<Sample>> = track.points.iter().map(sample).collect();
+    segments(&samples).into_iter().flat_map(|segment| by_stability(&track.points[segment])).collect()
+}
+
+/// The growth rates of a curve against speed, in pieces below and above zero. The largest of all growth rates is continuous
+/// in the speed, whichever mode has it: nothing jumps.
+pub fn growth(curve: &[[f64; 2]]) -> Vec<Piece> {
+    let points: Vec<(f64, Complex<f64>)> =
+        curve.iter().map(|&[speed, rate]| (speed, Complex::new(rate, 0.0))).collect();
+    by_stability(&points)
+}
+
+fn by_stability(points: &[(f64, Complex<f64>)]) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
-    for &(speed, eigenvalue) in &track.points {
+    for &(speed, eigenvalue) in points {
         let unstable = eigenvalue.re > 0.0;
         let mut points = vec![(speed, eigenvalue)];
         if let Some(last) = pieces.last_mut() {
@@ -256,23 +285,35 @@ pub struct Meshes {
 impl Meshes {
     /// Those of `known`, where it is about meshes, with `today` elements per cable.
     pub fn new(known: &Known, today: usize) -> Option<Self> {
+        Self::with(known, today, None)
+    }
+
+    /// The same where the critical speed on today's mesh is known from elsewhere.
+    pub fn with(known: &Known, today: usize, at_today: Option<&CriticalReport>) -> Option<Self> {
         let StudyChoice::Convergence { counts, .. } = &known.wish.study else { return None };
         let verdict = |(n, answer): (&usize, &Option<PlaceAnswer>)| match answer {
             Some(PlaceAnswer::Critical { verdict, .. }) => Some((*n, verdict.clone())),
             _ => None,
         };
-        let points: Vec<(usize, VerdictAnswer)> = counts.iter().zip(&known.places).filter_map(verdict).collect();
+        let mut points: Vec<(usize, VerdictAnswer)> = counts.iter().zip(&known.places).filter_map(verdict).collect();
+        if let Some(critical) = at_today.filter(|_| !counts.contains(&today)) {
+            points.push((today, VerdictAnswer::Critical(critical.clone())));
+            points.sort_by_key(|(n, _)| *n);
+        }
         let verdicts: Vec<(usize, Verdict)> = points.iter().map(|(n, answer)| (*n, plain(answer))).collect();
         Some(Self { limit: convergence::richardson(&verdicts, today), points })
     }
 
-    /// Elements per cable and critical speed in m/s, where there is one.
-    pub fn speeds(&self) -> Vec<[f64; 2]> {
-        let speed = |(n, verdict): &(usize, VerdictAnswer)| match verdict {
-            VerdictAnswer::Critical(critical) => Some([*n as f64, critical.speed]),
-            _ => None,
+    /// Stretches of meshes that show one mode, as points (elements per cable, critical speed in m/s).
+    pub fn stretches(&self) -> Vec<Vec<[f64; 2]>> {
+        // Over 1/n the critical speed is nearly straight, or bent one way: no step is unlike the others by itself.
+        let at = |(n, verdict): &(usize, VerdictAnswer)| sample(-1.0 / *n as f64, Some(verdict));
+        let samples: Vec<Option<Sample>> = self.points.iter().map(at).collect();
+        let point = |i: usize| {
+            let (n, verdict) = &self.points[i];
+            critical(verdict).map(|critical| [*n as f64, critical.speed])
         };
-        self.points.iter().filter_map(speed).collect()
+        segments(&samples).into_iter().map(|segment| segment.filter_map(point).collect()).collect()
     }
 }
 
@@ -332,8 +373,11 @@ mod tests {
         let stretches = along.stretches(|c| c.speed);
         assert_eq!((stretches.len(), stretches[0].len(), stretches[0][0][0]), (1, 15, -7.0));
         let text = along.findings().expect("findings");
-        assert!(text.starts_with("Toward both ends of the taut stretch (x = -7.0 m and x = 7.0 m)"), "{text}");
-        assert!(text.ends_with("the critical speed falls and the frequency rises, as the paper found."), "{text}");
+        assert!(
+            text.starts_with("From x = 0.0 m to x = -7.0 m and from x = 0.0 m to x = 7.0 m the critical speed "),
+            "{text}"
+        );
+        assert!(text.contains("falls and the frequency rises, as the paper found"), "{text}");
 
         // The other way round the places run from right to left; flat lines say nothing.
         let back = Along::new(&known(study.clone(), [-1.0, 0.0], |i| (i > 2).then(|| critical(9.0, 1.0))));
@@ -384,7 +428,7 @@ mod tests {
         let study = StudyChoice::Convergence { counts: counts.clone(), max_speed: 40.0 };
         let answer = |i: usize| Some(critical(10.0 + 20.0 / (counts[i] * counts[i]) as f64, 1.0));
         let meshes = Meshes::new(&known(study, [1.0, 0.0], answer), 10).expect("meshes");
-        assert_eq!(meshes.speeds().len(), 5);
+        assert_eq!(meshes.stretches().iter().map(Vec::len).collect::<Vec<_>>(), [5]);
         let Convergence::Limit(limit) = meshes.limit else { panic!("{meshes:?}") };
         assert!((limit.limit - 10.0).abs() < 1e-6 && (limit.error.unwrap_or(0.0) - 0.2).abs() < 1e-6, "{limit:?}");
     }
