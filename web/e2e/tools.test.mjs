@@ -95,6 +95,12 @@ browserTest("two tabs keep a robot each, and a new one begins with the last one 
     assert.equal(await reload(second), 3);
     await load(first, 4);
     assert.equal(await gravity(await another()), 4);
+    // Coming back to a tab makes it the one used last, also without a change.
+    await second.evaluate(() => document.activeElement.blur());
+    await second.waitForTimeout(300);
+    await second.mouse.click(654, 700);
+    await second.waitForTimeout(500);
+    assert.equal(await gravity(await another()), 3);
     // Its memory may be taken away, as private windows do; then the shared one serves.
     const blocked = await first.context().newPage();
     await blocked.addInitScript(() => {
