@@ -266,8 +266,8 @@ fn survives(scenario: &Scenario) -> bool {
 
 /// One line per fault.
 fn told(faults: &Faults) -> bool {
-    assert!(!faults.0.is_empty());
-    for fault in &faults.0 {
+    assert!(!faults.list().is_empty());
+    for fault in faults.list() {
         assert_eq!(fault.to_string().lines().count(), 1, "{fault:?}");
     }
     false

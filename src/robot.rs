@@ -190,9 +190,52 @@ impl fmt::Display for Fault {
 }
 
 /// Everything wrong with an input; never empty.
+///
+/// ```compile_fail
+/// // There is no refusal without a reason.
+/// let faults = tautline::robot::Faults(Vec::new());
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
-pub struct Faults(pub Vec<Fault>);
+pub struct Faults(Vec<Fault>);
+
+impl Faults {
+    /// Nothing where there are none.
+    ///
+    /// # Errors
+    /// The `faults`.
+    pub fn check(faults: Vec<Fault>) -> Result<(), Self> {
+        if faults.is_empty() { Ok(()) } else { Err(Self(faults)) }
+    }
+
+    /// All of them, at least one.
+    pub fn list(&self) -> &[Fault] {
+        &self.0
+    }
+
+    /// The same to be changed, though not in number.
+    pub fn list_mut(&mut self) -> &mut [Fault] {
+        &mut self.0
+    }
+
+    /// These and, after them, `others`.
+    #[must_use]
+    pub fn and(mut self, others: Self) -> Self {
+        self.0.extend(others.0);
+        self
+    }
+
+    /// All of them, at least one.
+    pub fn into_list(self) -> Vec<Fault> {
+        self.0
+    }
+}
+
+impl From<Fault> for Faults {
+    fn from(fault: Fault) -> Self {
+        Self(vec![fault])
+    }
+}
 
 impl Robot {
     /// Validates `spec`.
@@ -350,7 +393,8 @@ impl Motion {
             let value = format!("[{:?}, {:?}]", direction.x, direction.y);
             faults.push(Fault::new("motion.direction", value, "a vector that is not zero"));
         }
-        if faults.is_empty() { Ok(Self { position, direction: unit, speed }) } else { Err(Faults(faults)) }
+        Faults::check(faults)?;
+        Ok(Self { position, direction: unit, speed })
     }
 
     /// The platform's position, in metres.

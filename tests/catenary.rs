@@ -46,9 +46,10 @@ impl Hanging {
         let robot = robot.expect("a robot");
         let statics = mechanics::solve(&robot, self.platform).expect("a taut cable");
         let at_rest = vec![LengthRates { first: 0.0, second: 0.0 }; robot.cables.len()];
-        let vibration = Vibration::new(&robot, &statics, &at_rest);
-        let chain = vibration.chains[2].clone();
-        (statics.cables[2].clone(), Vibration { chains: vec![chain], hub: Hub::Fixed, ..vibration })
+        let vibration = Vibration::new(&robot, &statics, &at_rest).expect("of the same robot");
+        let own = vec![vibration.chains()[2].clone()];
+        let alone = Vibration::of_cables(own, Hub::Fixed, robot.damping, false).expect("a cable");
+        (statics.cables[2].clone(), alone)
     }
 
     /// The same with a given unstretched length: the tension is found by the secant method, near `tension`.

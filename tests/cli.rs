@@ -252,9 +252,12 @@ fn standard_input_without_end_is_refused_after_what_a_scenario_may_have() {
 #[test]
 fn bad_arguments_are_refused_on_one_line() {
     let file = File::new("arguments.json", at(0.0).as_bytes());
-    for speed in ["0", "-1", "nan", "inf", "-inf", "1e999", "fast", ""] {
+    for speed in ["0", "-1", "nan", "inf", "-inf", "1e999", "1e9", "10001", "fast", ""] {
         let lines = refuse(&["analyze", file.path(), "--max-speed", speed], "");
-        assert!(lines.len() == 1 && lines[0].contains("greater than 0") && lines[0].contains(speed), "{lines:?}");
+        assert!(
+            lines.len() == 1 && lines[0].contains("greater than 0, at most 10000") && lines[0].contains(speed),
+            "{lines:?}"
+        );
     }
     for arguments in [
         &["analyze"][..],

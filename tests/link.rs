@@ -173,26 +173,26 @@ fn forged_links_get_the_errors_of_files() {
     let of_link = not_physical(&link::encode(&forged));
     let of_file = Scenario::from_json(&forged.to_json()).unwrap_err();
     assert_eq!(of_link.to_string().replace("-10.0, 5.0", "…"), of_file.to_string().replace("-10.0, 5.0", "…"));
-    assert_eq!(of_link.0.len(), 4, "{of_link}");
+    assert_eq!(of_link.list().len(), 4, "{of_link}");
 
     // More cables than are allowed, and elements by the billion.
     let nine = [&CABLES[..], &CABLES[..], &CABLES[..1]].concat();
     let faults = not_physical(&around(&with_cables(&[9], &nine)));
     assert!(
-        faults.0.iter().any(|fault| fault.value == "a list of 9" && fault.allowed == "3 to 8 cables".into()),
+        faults.list().iter().any(|fault| fault.value == "a list of 9" && fault.allowed == "3 to 8 cables".into()),
         "{faults}"
     );
     let mut many = paper();
     many.elements_per_cable = usize::MAX;
     let faults = not_physical(&link::encode(&many));
-    assert_eq!((faults.0[0].path.as_str(), faults.0.len()), ("elements_per_cable", 1), "{faults}");
+    assert_eq!((faults.list()[0].path.as_str(), faults.list().len()), ("elements_per_cable", 1), "{faults}");
 
     // Numbers that a file cannot even hold.
     for (value, text) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf"), (f64::NEG_INFINITY, "-inf")] {
         let mut forged = paper();
         (forged.gravity, forged.motion.position[1]) = (value, value);
         let faults = not_physical(&link::encode(&forged));
-        let told: Vec<_> = faults.0.iter().map(|fault| (fault.path.as_str(), fault.value.as_str())).collect();
+        let told: Vec<_> = faults.list().iter().map(|fault| (fault.path.as_str(), fault.value.as_str())).collect();
         assert_eq!(told, [("gravity", text), ("motion.position[1]", text)]);
     }
 }
@@ -233,7 +233,7 @@ fn long_texts_are_refused_at_once() {
     }
     // Every cable in it is there, and each is at the same place.
     let cables = vec![CABLES[0]; 200_000];
-    assert!(not_physical(&around(&with_cables(&[0xc0, 0x9a, 0x0c], &cables))).0.len() < 100);
+    assert!(not_physical(&around(&with_cables(&[0xc0, 0x9a, 0x0c], &cables))).list().len() < 100);
     assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
 }
 

@@ -36,7 +36,8 @@ fn accepted(text: &str) -> Scenario {
 }
 
 fn faults(text: &str) -> Vec<Fault> {
-    let faults = Scenario::from_json(text).map_or_else(|faults| faults.0, |scenario| panic!("accepted {scenario:?}"));
+    let faults = Scenario::from_json(text)
+        .map_or_else(tautline::robot::Faults::into_list, |scenario| panic!("accepted {scenario:?}"));
     assert!(!faults.is_empty());
     for fault in &faults {
         assert_eq!(fault.to_string().lines().count(), 1, "{fault}");
@@ -368,8 +369,8 @@ fn assert_survives(text: &str) -> Result<(), TestCaseError> {
             prop_assert_eq!(again.unwrap().to_json(), scenario.to_json());
         }
         Err(faults) => {
-            prop_assert!(!faults.0.is_empty());
-            for fault in &faults.0 {
+            prop_assert!(!faults.list().is_empty());
+            for fault in faults.list() {
                 prop_assert_eq!(fault.to_string().lines().count(), 1, "{}", fault);
             }
         }

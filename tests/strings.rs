@@ -13,7 +13,7 @@ use tautline::mechanics::{Block, Chain, Element, Hub, Material, Vibration, elast
 use tautline::robot::{Damping, Linearisation, Strain, Vec2};
 use tautline::stability::{CriticalSearch, Eigenproblem, Kind, Method, Outcome};
 
-const MATERIAL: Material = Material { axial_stiffness: 6250.0, strain: Strain::Green };
+const MATERIAL: Material = Material::new(6250.0, Strain::Green).expect("positive");
 const MU: f64 = 0.4;
 const TENSION: f64 = 40.0;
 const LENGTH: f64 = 11.0;
@@ -33,12 +33,8 @@ fn travelling(n: usize, damping: Damping, linearisation: Linearisation) -> Vibra
         flow: flow_stiffness(MU, l, [1.0, 1.0], [0.0, 0.0]),
         elastic: elastic(MATERIAL, linearisation, l, Vec2::new(TENSION, 0.0)),
     };
-    Vibration {
-        chains: vec![Chain { elements: vec![element; n] }],
-        hub: Hub::Fixed,
-        damping,
-        isotropic: linearisation == Linearisation::Secant,
-    }
+    let chain = Chain::new(vec![element; n]).expect("elements");
+    Vibration::of_cables(vec![chain], Hub::Fixed, damping, linearisation == Linearisation::Secant).expect("a cable")
 }
 
 #[test]

@@ -245,6 +245,8 @@ fn a_divergence_does_not_need_a_scan() {
         let Ok(Some(Outcome::Found(critical))) = outcome else { panic!("{damping:?}: {outcome:?}") };
         assert_eq!((critical.kind, search.doubt(), search.samples()), (Kind::Divergence, None, &[][..]), "{damping:?}");
         assert!((critical.speed - 11.939_098_568).abs() < 1e-9, "{damping:?}: {critical:?}");
+        // Cables 3 and 4 mirror each other and bow out alike; 4 is reeled in.
+        assert_eq!(critical.cable, 3, "{damping:?}");
         if damping == alone {
             let parts = Parts::new(&robot, &local.statics, &local.rates);
             let lowest = divergences(&parts).expect("eigenvalues")[0];
@@ -260,7 +262,7 @@ const NEAR_THE_AXIS: [(u64, [f64; 3]); 5] = [
     (395, [3.64, 5.38, 5.39]),
     (255, [13.6, 19.49, 19.5]),
     (494, [0.16, 0.1619, 0.163]),
-    (55, [0.0817, 0.082, 0.0821]),
+    (55, [0.081, 0.0817, 0.082]),
 ];
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::app::number::{self, Unit};
 use crate::app::state::{Settings, StressUnit};
-use crate::robot::{Allowed, ELEMENTS, Fault, Faults, TensionLaw};
+use crate::robot::{Allowed, ELEMENTS, Fault, TensionLaw};
 use crate::scenario::Scenario;
 
 /// A number of the scenario with its control.
@@ -330,8 +330,8 @@ pub fn edited(scenario: &Scenario, field: &Field, value: f64, settings: Settings
 /// # Errors
 /// What is wrong first, in words.
 pub fn check(scenario: &Scenario, settings: Settings) -> Result<(), String> {
-    let Err(Faults(faults)) = scenario.to_robot() else { return Ok(()) };
-    Err(faults.first().map(|fault| in_words(fault, scenario, settings)).unwrap_or_default())
+    let Err(faults) = scenario.to_robot() else { return Ok(()) };
+    Err(faults.list().first().map(|fault| in_words(fault, scenario, settings)).unwrap_or_default())
 }
 
 /// What is wrong, in the words and the unit of the field that it belongs to.
@@ -385,7 +385,7 @@ mod tests {
                 // The same number, and no other one, is found by the path of its fault.
                 let mut wrong = scenario.clone();
                 field.number.set(&mut wrong, f64::NAN);
-                let faults = wrong.to_robot().map_or_else(|faults| faults.0, |_| Vec::new());
+                let faults = wrong.to_robot().map_or_else(crate::robot::Faults::into_list, |_| Vec::new());
                 assert!(
                     faults.iter().any(|fault| fault.path.starts_with(&field.number.path())),
                     "{field:?}: {faults:?}"

@@ -17,6 +17,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::scenario::{Scenario, file};
+use crate::stability::{ALLOWED_LIMIT, is_limit};
 
 /// What the command line asks for.
 #[derive(Debug)]
@@ -147,8 +148,7 @@ fn write_out(output: &mut dyn Write, errors: &mut dyn Write, text: &str) -> Resu
 
 /// A speed up to which to search, in m/s.
 fn max_speed(text: &str) -> Result<f64, String> {
-    let speed = text.parse().ok().filter(|&speed: &f64| speed.is_finite() && speed > 0.0);
-    speed.ok_or_else(|| "allowed: a finite number greater than 0".into())
+    text.parse().ok().filter(|&speed| is_limit(speed)).ok_or_else(|| format!("allowed: {ALLOWED_LIMIT}"))
 }
 
 /// The first paragraph of clap's message.
@@ -167,5 +167,5 @@ fn read_scenario(path: &Path, input: &mut dyn Read) -> Result<Scenario, Vec<Stri
     let fault = |what: &dyn std::fmt::Display| format!("{name}: {what}");
     let text = if standard_input { file::read(input) } else { file::open(path) };
     let text = text.map_err(|error| vec![fault(&error)])?;
-    Scenario::from_json(&text).map_err(|faults| faults.0.iter().map(|one| fault(one)).collect())
+    Scenario::from_json(&text).map_err(|faults| faults.list().iter().map(|one| fault(one)).collect())
 }

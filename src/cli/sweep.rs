@@ -203,7 +203,7 @@ impl Sweep {
         let mut faults = BTreeMap::new();
         let mut check = |axes: &[&Axis], values: &[f64]| {
             let values = || axes.iter().copied().zip(values.iter().copied());
-            for fault in self.scenario(values()).err().map(|faults| faults.0).into_iter().flatten() {
+            for fault in self.scenario(values()).err().map(Faults::into_list).into_iter().flatten() {
                 faults.entry(fault.path.clone()).or_insert_with(|| {
                     let own = values().any(|(axis, _)| axis.path == fault.path);
                     let place: Vec<String> =

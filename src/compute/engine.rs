@@ -395,7 +395,7 @@ mod tests {
         let Some(Update::Pose(pose)) = replies.into_iter().map(|reply| reply.update).next() else { panic!("no pose") };
         // The search's own matrices; the pose has been computed from the others.
         let waiting = engine.waiting.as_mut().expect("a pose");
-        waiting.local.vibration.chains[1].elements[2].elastic *= f64::NAN;
+        waiting.local.vibration.chains[1].elements_mut()[2].elastic *= f64::NAN;
         (pose.report, std::iter::from_fn(|| engine.work()).flatten().collect())
     }
 

@@ -5,6 +5,7 @@ use nalgebra::Complex;
 use crate::robot::{Robot, Vec2};
 use crate::scenario::Scenario;
 use crate::scenario::report::CriticalReport;
+use crate::stability::{ALLOWED_LIMIT, is_limit};
 use crate::study::{Answer, Asked, Directions, Grid, Line, Study, Verdict, campbell, compass};
 
 use super::protocol::{AskedChoice, DirectionsChoice, Missing, PlaceAnswer, StudyChoice, StudyJob, VerdictAnswer};
@@ -148,10 +149,7 @@ impl Places {
 
 /// A speed up to which to search, or why it is none.
 pub(super) fn search_limit(value: f64) -> Result<f64, String> {
-    if value.is_finite() && value > 0.0 {
-        return Ok(value);
-    }
-    Err(format!("the highest speed must be finite and greater than 0, not {value}"))
+    if is_limit(value) { Ok(value) } else { Err(format!("the highest speed is {value}; allowed: {ALLOWED_LIMIT}")) }
 }
 
 impl From<&Answer> for PlaceAnswer {

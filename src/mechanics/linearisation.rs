@@ -61,14 +61,33 @@ impl Element<Dual64> {
     }
 }
 
-/// The elements of one cable, from the platform to the winch.
+/// The elements of one cable, from the platform to the winch: at least two.
+///
+/// ```compile_fail
+/// // There is no chain without elements.
+/// let chain = tautline::mechanics::Chain { elements: Vec::new() };
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chain {
-    /// At least two elements.
-    pub elements: Vec<Element>,
+    elements: Vec<Element>,
 }
 
 impl Chain {
+    /// The cable of these elements; `None` where there are fewer than two, so that no node moves.
+    pub fn new(elements: Vec<Element>) -> Option<Self> {
+        (elements.len() >= 2).then_some(Self { elements })
+    }
+
+    /// The elements from the platform to the winch.
+    pub fn elements(&self) -> &[Element] {
+        &self.elements
+    }
+
+    /// The same to be changed, though not in number.
+    pub fn elements_mut(&mut self) -> &mut [Element] {
+        &mut self.elements
+    }
+
     /// Number of nodes that move, besides the one at the hub.
     pub fn inner_nodes(&self) -> usize {
         self.elements.len() - 1
@@ -84,28 +103,64 @@ pub enum Hub {
     Fixed,
 }
 
-/// The small-vibration problem at a pose, for every speed.
+/// The small-vibration problem at a pose, for every speed: one chain per cable, at least one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Vibration {
-    /// One chain per cable.
-    pub chains: Vec<Chain>,
-    /// Where the chains meet.
-    pub hub: Hub,
-    /// α and β.
-    pub damping: Damping,
-    /// Whether every block is a multiple of I₂, so that x and y decouple into two equal problems (secant stiffness).
-    pub isotropic: bool,
+    pub(crate) chains: Vec<Chain>,
+    pub(crate) hub: Hub,
+    pub(crate) damping: Damping,
+    pub(crate) isotropic: bool,
 }
 
 impl Vibration {
-    /// The problem of `robot` at rest in `statics`, for motion with the length rates `rates`.
-    pub fn new(robot: &Robot, statics: &Statics, rates: &[LengthRates]) -> Self {
+    /// The problem of cables that meet in `hub`, with damping; `isotropic` tells whether every block is a multiple of I₂,
+    /// so that x and y decouple into two equal problems (secant stiffness).
+    ///
+    /// `None` where there is no cable, a platform's mass is not positive, or `isotropic` is not true.
+    pub fn of_cables(chains: Vec<Chain>, hub: Hub, damping: Damping, isotropic: bool) -> Option<Self> {
+        let heavy = match hub {
+            Hub::Platform(mass) => mass > 0.0,
+            Hub::Fixed => true,
+        };
+        let alike = |element: &Element| element.elastic == Matrix2::identity() * element.elastic[(0, 0)];
+        let sound = !isotropic || chains.iter().flat_map(Chain::elements).all(alike);
+        (heavy && sound && !chains.is_empty()).then_some(Self { chains, hub, damping, isotropic })
+    }
+
+    /// One chain per cable.
+    pub fn chains(&self) -> &[Chain] {
+        &self.chains
+    }
+
+    /// Where the chains meet.
+    pub fn hub(&self) -> Hub {
+        self.hub
+    }
+
+    /// α and β.
+    pub fn damping(&self) -> Damping {
+        self.damping
+    }
+
+    /// Whether every block is a multiple of I₂, so that x and y decouple into two equal problems (secant stiffness).
+    pub fn is_isotropic(&self) -> bool {
+        self.isotropic
+    }
+
+    /// The problem of `robot` at rest in `statics`, for motion with the length rates `rates`; `None` where these are not
+    /// of all its cables and elements.
+    pub fn new(robot: &Robot, statics: &Statics, rates: &[LengthRates]) -> Option<Self> {
+        let cables = robot.cables.len();
+        let whole = statics.cables.iter().all(|shape| shape.forces.len() == robot.elements);
+        if !whole || statics.cables.len() != cables || rates.len() != cables {
+            return None;
+        }
         let parameters = Parameters::of(robot);
         let chain = |(shape, &rates): (&crate::mechanics::CableShape, &LengthRates)| {
             let forces = shape.forces.iter().copied();
             Chain { elements: Element::of_cable(robot, &parameters, shape.length, rates, forces).collect() }
         };
-        Self::of_chains(robot, statics.cables.iter().zip(rates).map(chain).collect(), robot.platform_mass)
+        Some(Self::of_chains(robot, statics.cables.iter().zip(rates).map(chain).collect(), robot.platform_mass))
     }
 
     /// The derivatives of M, C, K and D with respect to ln p, p the parameter `knob`, in the form of a problem; for
@@ -157,5 +212,48 @@ impl Vibration {
     pub fn nodes(&self) -> usize {
         let hub = usize::from(matches!(self.hub, Hub::Platform(_)));
         hub + self.chains.iter().map(Chain::inner_nodes).sum::<usize>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::{self, length_rates};
+    use crate::robot::{RobotSpec, Strain, paper, paper_spec};
+
+    /// What has no meaning cannot be built, and what does not belong together has no problem.
+    #[test]
+    fn illegal_values_cannot_be_built() {
+        let robot = paper().expect("a robot");
+        let statics = mechanics::solve(&robot, Vec2::new(1.0, 0.5)).expect("statics");
+        let rates = length_rates(&robot, &statics, Vec2::x()).expect("rates");
+        let vibration = Vibration::new(&robot, &statics, &rates).expect("a problem");
+        let chain = &vibration.chains()[0];
+        for (elements, legal) in [(0, false), (1, false), (2, true), (10, true)] {
+            assert_eq!(Chain::new(chain.elements()[..elements].to_vec()).is_some(), legal, "{elements} elements");
+        }
+        let of = |chains: usize, hub, isotropic| {
+            Vibration::of_cables(vibration.chains()[..chains].to_vec(), hub, robot.damping, isotropic).is_some()
+        };
+        assert!(of(1, Hub::Fixed, true) && of(4, Hub::Platform(2.0), true));
+        assert!(!of(0, Hub::Fixed, true) && !of(4, Hub::Platform(0.0), true) && !of(4, Hub::Platform(f64::NAN), true));
+        let tangent = Robot::new(RobotSpec { linearisation: Linearisation::Tangent, ..paper_spec() }).expect("a robot");
+        let planar = Vibration::new(&tangent, &statics, &rates).expect("a problem");
+        let of_planar = |isotropic| Vibration::of_cables(planar.chains.clone(), planar.hub, planar.damping, isotropic);
+        assert_eq!(of_planar(false).as_ref(), Some(&planar));
+        assert!(of_planar(true).is_none(), "not isotropic");
+        // Of another mesh, of fewer cables, and of another robot.
+        let finer = Robot::new(RobotSpec { elements: 12, ..paper_spec() }).expect("a robot");
+        assert!(
+            Vibration::new(&finer, &statics, &rates).is_none()
+                && Vibration::new(&robot, &statics, &rates[1..]).is_none()
+        );
+        let fewer = Statics { cables: statics.cables[..3].to_vec(), ..statics.clone() };
+        assert!(Vibration::new(&robot, &fewer, &rates).is_none() && length_rates(&robot, &fewer, Vec2::x()).is_none());
+        for (stiffness, legal) in
+            [(6250.0, true), (0.0, false), (-1.0, false), (f64::NAN, false), (f64::INFINITY, false)]
+        {
+            assert_eq!(Material::new(stiffness, Strain::Green).is_some(), legal, "{stiffness}");
+        }
     }
 }

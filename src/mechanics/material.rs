@@ -13,12 +13,17 @@ use crate::robot::{Robot, Strain};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material<D = f64> {
     /// EA in newtons, positive.
-    pub axial_stiffness: D,
-    /// The strain measure.
-    pub strain: Strain,
+    pub(crate) axial_stiffness: D,
+    pub(crate) strain: Strain,
 }
 
 impl Material {
+    /// The material with the axial stiffness EA in newtons and that strain measure; `None` where EA is not positive and
+    /// finite.
+    pub const fn new(axial_stiffness: f64, strain: Strain) -> Option<Self> {
+        if axial_stiffness > 0.0 && axial_stiffness.is_finite() { Some(Self { axial_stiffness, strain }) } else { None }
+    }
+
     /// The material of a robot's cables.
     pub fn of(robot: &Robot) -> Self {
         Self { axial_stiffness: robot.axial_stiffness(), strain: robot.strain }

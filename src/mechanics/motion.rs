@@ -48,7 +48,7 @@ pub(super) fn paths<D: DualNum<Primitive = f64> + Copy>(
 
     for i in robot.prescribed() {
         let (anchor, law) = (robot.cables[i].anchor, robot.cables[i].tension);
-        let shape = &statics.cables[i];
+        let shape = statics.cables.get(i)?;
         let path = follow(
             SVector::from([shape.t0.x, shape.t0.y, shape.length]),
             |z| {
@@ -68,7 +68,7 @@ pub(super) fn paths<D: DualNum<Primitive = f64> + Copy>(
 
     let pair = robot.pair();
     let anchors = pair.map(|i| robot.cables[i].anchor);
-    let [a, b] = pair.map(|i| &statics.cables[i]);
+    let (a, b) = (statics.cables.get(pair[0])?, statics.cables.get(pair[1])?);
     let path: [_; 6] = follow(
         SVector::from([a.t0.x, a.t0.y, a.length, b.t0.x, b.t0.y, b.length]),
         |z| {

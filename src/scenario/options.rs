@@ -3,6 +3,7 @@
 use crate::robot::{Fault, Faults, Vec2};
 use crate::scenario::reader::{Document, Object, Value};
 use crate::scenario::report::DEFAULT_MAX_SPEED;
+use crate::stability::{ALLOWED_LIMIT, is_limit};
 use crate::study::Directions;
 
 /// The most points in a row or column of a map.
@@ -60,8 +61,8 @@ impl MapOptions {
 
 fn read_max_speed(options: &Object, faults: &mut Vec<Fault>) -> f64 {
     let speed = options.optional("maxSpeed").map_or(DEFAULT_MAX_SPEED, |speed| speed.number());
-    if speed <= 0.0 {
-        faults.push(Fault::new("maxSpeed", speed, "a finite number greater than 0"));
+    if !is_limit(speed) {
+        faults.push(Fault::new("maxSpeed", speed, ALLOWED_LIMIT));
     }
     speed
 }
@@ -83,7 +84,7 @@ fn read_direction(direction: &Value, faults: &mut Vec<Fault>) -> Option<Directio
 /// Faults in reading come first; they may well be the reason for the others.
 fn checked(document: &Document, faults: Vec<Fault>) -> Result<(), Faults> {
     document.check()?;
-    if faults.is_empty() { Ok(()) } else { Err(document.quoted(Faults(faults))) }
+    Faults::check(faults).map_err(|faults| document.quoted(faults))
 }
 
 #[cfg(test)]
@@ -122,7 +123,14 @@ mod tests {
             (r#""direction": [0, 0.0]"#, "direction: [0, 0.0] is not allowed; allowed: a vector that is not zero"),
             (r#""direction": [1]"#, "direction: [1] is not allowed; allowed: a list of 2 numbers"),
             (r#""direction": 7"#, "direction: 7 is not allowed"),
-            (r#""maxSpeed": -1e0"#, "maxSpeed: -1e0 is not allowed; allowed: a finite number greater than 0"),
+            (
+                r#""maxSpeed": -1e0"#,
+                "maxSpeed: -1e0 is not allowed; allowed: a number of m/s greater than 0, at most 10000",
+            ),
+            (
+                r#""maxSpeed": 1e9"#,
+                "maxSpeed: 1e9 is not allowed; allowed: a number of m/s greater than 0, at most 10000",
+            ),
             (r#""maxSpeed": "NaN""#, "maxSpeed: \"NaN\" is not allowed; allowed: a finite number"),
             (r#""max_speed": 3"#, "max_speed: an unknown field (3) is not allowed; allowed: the fields nx, ny"),
         ] {

@@ -46,7 +46,7 @@ impl Document {
             None => text.to_owned(),
             Some(fault) => {
                 let quoted = quote_not_finite(text);
-                is_json(&quoted).map_err(|_| Faults(vec![fault.clone()]))?;
+                is_json(&quoted).map_err(|_| Faults::from(fault.clone()))?;
                 quoted
             }
         };
@@ -67,12 +67,12 @@ impl Document {
         if faults.is_empty() {
             faults.extend(self.syntax.clone());
         }
-        if faults.is_empty() { Ok(()) } else { Err(Faults(faults)) }
+        Faults::check(faults)
     }
 
     /// `faults` found later in numbers that were read, with the values as they are written in the file.
     pub(super) fn quoted(&self, mut faults: Faults) -> Faults {
-        for fault in &mut faults.0 {
+        for fault in faults.list_mut() {
             if let Some(text) = self.numbers.borrow().get(&fault.path) {
                 fault.value.clone_from(text);
             }

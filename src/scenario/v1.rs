@@ -148,10 +148,7 @@ impl Scenario {
         let Motion { position, direction, speed } = self.motion;
         match (robot, robot::Motion::new(position, direction, speed)) {
             (Ok(robot), Ok(motion)) => Ok((robot, motion)),
-            (Err(mut of_robot), Err(of_motion)) => {
-                of_robot.0.extend(of_motion.0);
-                Err(of_robot)
-            }
+            (Err(of_robot), Err(of_motion)) => Err(of_robot.and(of_motion)),
             (Err(faults), _) | (_, Err(faults)) => Err(faults),
         }
     }

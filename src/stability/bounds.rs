@@ -149,7 +149,7 @@ impl Bounds {
                 Hub::Fixed => None,
             };
             let (mut stretch, mut mass, mut softest) = (0.0, 0.0, f64::INFINITY);
-            for element in &chain.elements {
+            for element in chain.elements() {
                 let one = Flow::of(element);
                 let largest = |pair: [f64; 2]| pair[0].abs().max(pair[1].abs());
                 if let Some([flow, rate]) = before {
@@ -174,10 +174,10 @@ impl Bounds {
                 softest = softest.min(one.elastic[0]);
             }
             // ∫ μ u² ≤ (2/π)² (Σ mass)(Σ compliance) u*Ku for a cable held at the winch, of its softest stiffness.
-            let n = chain.elements.len() as f64;
+            let n = chain.elements().len() as f64;
             compliance = compliance.max(4.0 / PI.powi(2) * mass * n / softest);
             hub_stiffness += 1.0 / stretch;
-            let flows = || chain.elements.iter().map(Flow::of);
+            let flows = || chain.elements().iter().map(Flow::of);
             bounds.across.add(flows().map(|flow| (flow, flow.elastic[0])));
             bounds.along.add(flows().map(|flow| (flow, flow.elastic[1])));
         }
@@ -226,8 +226,8 @@ impl Bounds {
             let Some([least, most]) = between(beta, v * v * self.acceleration / omega, v * self.reeling - alpha) else {
                 return true;
             };
-            let lower = (least * least - v * v * self.curvature).max(0.0).sqrt() - fast * least;
-            least > mesh || (fast < 1.0 && lower > omega) || self.upper(most, v) < omega
+            let lower = || (least * least - v * v * self.curvature).max(0.0).sqrt() - fast * least;
+            self.upper(most, v) < omega || (least > 0.0 && (least > mesh || (fast < 1.0 && lower() > omega)))
         };
         if !closed(top) {
             return top * (1.0 + MARGIN);
@@ -279,7 +279,8 @@ impl Bounds {
     /// The waves that swing the mesh at about `omega` (rad/s) and a speed of `v`: beyond the highest frequency across the
     /// cables those along them alone.
     fn waves(&self, omega: f64, v: f64) -> &Waves {
-        if omega > self.upper(self.across.highest.sqrt(), v) { &self.along } else { &self.across }
+        let above = omega * omega > self.across.highest && omega > self.upper(self.across.highest.sqrt(), v);
+        if above { &self.along } else { &self.across }
     }
 
     /// Whether waves of the frequency `omega` (rad/s) are so short that the mesh matters.
@@ -290,8 +291,12 @@ impl Bounds {
     /// Whether, up to the frequency `omega` (rad/s), waves for which the mesh matters may have eigenvalues far nearer to the
     /// axis than to each other: mass damping, which reeling cancels, alone keeps them off it.
     pub(super) fn is_sharp(&self, omega: f64) -> bool {
-        let decay = 0.5 * self.damping.beta * self.smooth;
-        self.mesh_matters(omega) && decay * self.across.travels / PI < SHARP
+        self.mesh_matters(omega) && self.may_be_sharp()
+    }
+
+    /// Whether that is so for waves for which the mesh matters.
+    pub(super) fn may_be_sharp(&self) -> bool {
+        0.5 * self.damping.beta * self.smooth * self.across.travels / PI < SHARP
     }
 
     /// A step from the frequency `omega` (rad/s) upwards in which so many of all cables' frequencies are expected as in
@@ -357,7 +362,7 @@ mod tests {
             flow: flow_stiffness(MU, l, inflow(k, rates[0]), inflow(k, rates[1])),
             elastic: elastic(MATERIAL, Linearisation::Tangent, l, Vec2::new(0.6, 0.8) * tension),
         };
-        Chain { elements: (0..n).map(element).collect() }
+        Chain::new((0..n).map(element).collect()).unwrap()
     }
 
     fn near(a: f64, b: f64, tolerance: f64, what: &str) {
@@ -433,7 +438,7 @@ mod tests {
             isotropic: false,
         };
         assert!(Bounds::new(&vibration).is_some());
-        let whole = vibration.chains[0].elements.clone();
+        let whole = vibration.chains[0].clone();
         let flow = [[0.3, 0.4], [-0.1, -0.4 / 3.0]];
         for (w, rate, holds) in [
             (flow[0], flow[1], true),
@@ -442,12 +447,12 @@ mod tests {
             (flow[0], [-0.11, -0.4 / 3.0], false),
             (flow[0], [-0.1, -0.14], false),
         ] {
-            vibration.chains[0].elements = whole.clone();
-            vibration.chains[0].elements[3].transfer = transfer(MU, w);
-            vibration.chains[0].elements[3].flow = flow_stiffness(MU, 0.5, w, rate);
+            vibration.chains[0] = whole.clone();
+            vibration.chains[0].elements_mut()[3].transfer = transfer(MU, w);
+            vibration.chains[0].elements_mut()[3].flow = flow_stiffness(MU, 0.5, w, rate);
             assert_eq!(Bounds::new(&vibration).is_some(), holds, "{w:?} {rate:?}");
         }
-        vibration.chains[0].elements = whole[1..].to_vec();
+        vibration.chains[0] = Chain::new(whole.elements()[1..].to_vec()).unwrap();
         assert!(Bounds::new(&vibration).is_none(), "flow at the platform");
         vibration.hub = Hub::Fixed;
         assert!(Bounds::new(&vibration).is_some(), "flow at a fixed end");

@@ -101,7 +101,7 @@ impl Characteristic {
             Hub::Platform(mass) => Some(mass),
             Hub::Fixed => None,
         };
-        let hub = vibration.chains.iter().map(|chain| PlanarSum::of(&chain.elements[0], 0));
+        let hub = vibration.chains.iter().map(|chain| PlanarSum::of(&chain.elements()[0], 0));
         let hub = hub.fold(PlanarSum::default(), PlanarSum::plus);
         let kind = if vibration.isotropic {
             Kind::Scalar {
@@ -211,11 +211,11 @@ fn side_by_side<N>(vibration: &Vibration, node: impl Fn([&Element; 2], [&Element
     let mut chains = vibration.chains.as_slice();
     let mut sides = Vec::new();
     while let [first, rest @ ..] = chains {
-        let second = rest.first().filter(|second| second.elements.len() == first.elements.len());
+        let second = rest.first().filter(|second| second.elements().len() == first.elements().len());
         let cables = if second.is_some() { 2 } else { 1 };
         let both = [first, second.unwrap_or(first)];
-        let at = |k: usize| both.map(|chain: &Chain| &chain.elements[k]);
-        let nodes = (1..first.elements.len()).rev().map(|k| node(at(k - 1), at(k))).collect();
+        let at = |k: usize| both.map(|chain: &Chain| &chain.elements()[k]);
+        let nodes = (1..first.elements().len()).rev().map(|k| node(at(k - 1), at(k))).collect();
         sides.push(SideBySide { nodes, cables });
         chains = &chains[cables..];
     }

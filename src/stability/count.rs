@@ -95,7 +95,8 @@ impl Counter {
 /// The count by the argument principle, nothing beyond `radius` (1/s) being unstable.
 fn by_argument(axis: &mut Axis, bounds: &Bounds, speed: f64, radius: f64) -> Option<Count> {
     let effort = LEAST_EFFORT.max(EFFORT_EACH * bounds.modes());
-    let mut path = Path { axis, speed, evaluations: 0, effort, nearest: [f64::INFINITY, 0.0] };
+    let careful = bounds.may_be_sharp();
+    let mut path = Path { axis, speed, careful, evaluations: 0, effort, nearest: [f64::INFINITY, 0.0] };
     let (mut before, mut omega, mut along_axis) = (path.at(C64::new(0.0, 0.0)), 0.0, 0.0);
     while omega < radius {
         omega = radius.min(omega + bounds.frequency_step(omega, [LARGEST_STEP; 2]));
@@ -132,6 +133,8 @@ struct Point {
 struct Path<'a> {
     axis: &'a mut Axis,
     speed: f64,
+    /// Whether eigenvalues may be so near the axis that a step has to agree with its parts.
+    careful: bool,
     evaluations: usize,
     /// Evaluations after which the count is given up.
     effort: usize,
@@ -150,9 +153,13 @@ impl Path<'_> {
         Point { lambda, log: value.log, slope: value.by_lambda }
     }
 
-    /// The change of arg D along the chord between two points, once both parts of it agree with the whole.
+    /// The change of arg D along the chord between two points, where that is called for once both parts of it agree with the
+    /// whole.
     fn turn(&mut self, from: Point, to: Point, halvings: u32) -> Option<f64> {
         let free = simple_turn(from, to);
+        if free.is_some() && !self.careful {
+            return free;
+        }
         if halvings == 0 || self.evaluations > self.effort {
             return None;
         }

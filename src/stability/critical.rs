@@ -12,11 +12,17 @@ use nalgebra::Complex;
 
 use crate::mechanics::Vibration;
 use crate::stability::crossing::{FirstCrossing, Search};
+use crate::stability::modes::responsible_cable;
 use crate::stability::rest::{AtRest, FromRest};
 use crate::stability::{Doubt, Eigenproblem, NotConverged, Polarisation, Spectra, Spectrum, mode};
 
 /// The paper's step of the speed, in m/s.
 pub const SCAN_STEP: f64 = 0.1;
+/// The highest speed in m/s up to which a critical speed is searched for. A robot one of whose cables moves at the speed of
+/// its waves is no longer stable, give or take a few times that, and in no cable waves are faster than some 2000 m/s.
+pub const LARGEST_LIMIT: f64 = 10_000.0;
+/// What the limit of a search may be.
+pub const ALLOWED_LIMIT: &str = "a number of m/s greater than 0, at most 10000, as no wave in a cable is faster";
 /// The crossing is refined to this many m/s.
 const REFINED_TO: f64 = 1e-9;
 /// Growth rates below this part of the largest frequency are rounding.
@@ -124,6 +130,11 @@ impl ScanSolver {
     }
 }
 
+/// Whether a critical speed can be searched for up to `speed` (m/s): [`ALLOWED_LIMIT`].
+pub fn is_limit(speed: f64) -> bool {
+    speed > 0.0 && speed <= LARGEST_LIMIT
+}
+
 /// A search for the critical speed of one problem in slices, so that it can be watched and abandoned.
 #[derive(Debug)]
 pub struct CriticalSearch {
@@ -148,14 +159,15 @@ enum Stage {
 }
 
 impl CriticalSearch {
-    /// A search from rest to `limit` (m/s); there is nothing to search where it is not greater than 0.
+    /// A search from rest to `limit` (m/s), [`LARGEST_LIMIT`] at most; there is nothing to search where it is not greater
+    /// than 0.
     pub fn new(limit: f64) -> Self {
         Self::by(Method::default(), limit)
     }
 
     /// The same by `method`.
     pub fn by(method: Method, limit: f64) -> Self {
-        let limit = if limit > 0.0 { limit } else { 0.0 };
+        let limit = if limit > 0.0 { limit.min(LARGEST_LIMIT) } else { 0.0 };
         Self { limit, method, stage: Stage::Begin, doubt: None, steps: 0, samples: Vec::new() }
     }
 
@@ -246,7 +258,7 @@ impl CriticalSearch {
                     let eigenvalue = Complex::new(0.0, omega);
                     let mode = mode(vibration, speed, eigenvalue, Polarisation::default());
                     let kind = if omega > 0.0 { Kind::Flutter } else { Kind::Divergence };
-                    Outcome::Found(Critical { speed, eigenvalue, kind, cable: mode.responsible_cable() })
+                    Outcome::Found(Critical { speed, eigenvalue, kind, cable: responsible_cable(vibration, &mode) })
                 }
             })),
             Stage::Scan(_) => Ok(None),
@@ -308,7 +320,7 @@ impl CriticalSearch {
             let eigenvalue = spectrum(seen_at)?.rightmost();
             let mode = mode(vibration, seen_at, eigenvalue, Polarisation::default());
             let kind = if eigenvalue.im > ROUNDING * scale { Kind::Flutter } else { Kind::Divergence };
-            let critical = Critical { speed: critical, eigenvalue, kind, cable: mode.responsible_cable() };
+            let critical = Critical { speed: critical, eigenvalue, kind, cable: responsible_cable(vibration, &mode) };
             return Ok(Some(Outcome::Found(critical)));
         }
         Ok((speed >= self.limit).then_some(Outcome::NoneUpTo(self.limit)))
@@ -359,7 +371,7 @@ fn refine(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Damping, Linearisation, Motion, Robot, RobotSpec, paper_spec};
+    use crate::robot::{Cable, Damping, Linearisation, Motion, Robot, RobotSpec, TensionLaw, Vec2, paper_spec};
     use crate::study::Local;
 
     /// Also by the scan, which undamped robots are left to.
@@ -412,6 +424,45 @@ mod tests {
             assert_eq!(left_to_the_scan.advance(&undamped.vibration), Ok(None));
         }
         assert_eq!(left_to_the_scan.doubt(), Some(Doubt::Undamped));
+    }
+
+    /// A cable across the motion of light and very taut cables: waves are so fast that it is stable far beyond what is
+    /// searched. Strips grow with the speed, so that they are few; a speed that is no limit is none.
+    #[test]
+    fn a_search_far_beyond_all_that_moves_ends_soon() {
+        let cable = |x, y, tension| Cable { anchor: Vec2::new(x, y), tension };
+        let robot = Robot::new(RobotSpec {
+            youngs_modulus: 1e13,
+            area: 1e-4,
+            mass_per_length: 1e-4,
+            platform_mass: 1e6,
+            cables: vec![
+                cable(-5.0, 5.0, TensionLaw::Equilibrium),
+                cable(5.5, 4.5, TensionLaw::Equilibrium),
+                cable(0.6, 7.0, TensionLaw::Constant(2.5e6)),
+            ],
+            damping: Damping { alpha: 1e-3, beta: 0.0 },
+            ..paper_spec()
+        })
+        .unwrap();
+        let local = Local::new(&robot, &Motion::new([0.2, -0.5], [0.1, -1.0], 5.0).unwrap()).unwrap();
+        for limit in [1e4, 1e9, f64::INFINITY] {
+            let mut search = CriticalSearch::new(limit);
+            let mut slices = 0;
+            let outcome = loop {
+                slices += 1;
+                assert!(slices < 1000, "{slices} slices, at {} m/s", search.searched_up_to());
+                if let Some(outcome) = search.advance(&local.vibration).unwrap() {
+                    break outcome;
+                }
+            };
+            assert_eq!((outcome, search.doubt()), (Outcome::NoneUpTo(LARGEST_LIMIT), None));
+            assert!(slices > 50, "{slices} slices: not a long search");
+        }
+        for (speed, legal) in [(1e-3, true), (LARGEST_LIMIT, true), (1.0001 * LARGEST_LIMIT, false), (0.0, false)] {
+            assert_eq!(is_limit(speed), legal, "{speed}");
+        }
+        assert!(!is_limit(f64::NAN) && !is_limit(f64::INFINITY) && ALLOWED_LIMIT.contains(&LARGEST_LIMIT.to_string()));
     }
 
     /// Where rounding hides on which side of the crossing the limit is, the crossing's place decides.

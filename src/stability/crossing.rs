@@ -12,7 +12,7 @@ use nalgebra::Complex;
 
 use super::axis::Axis;
 use super::bounds::Bounds;
-use super::characteristic::{Characteristic, LogDeterminant};
+use super::characteristic::Characteristic;
 use super::count::{Count, Counter, change};
 use crate::mechanics::Vibration;
 
@@ -26,6 +26,9 @@ const LARGEST_MOVE: f64 = 0.35;
 /// A strip is so high, in m/s; at low speeds, where frequencies hardly move, up to twice that.
 const STRIP: f64 = 0.5;
 const LARGEST_STRIP: f64 = 1.0;
+/// At high speeds strips are so large a part of the speed where they begin, and up to twice that: their number grows with
+/// the logarithm of the limit.
+const STRIP_PART: f64 = 0.01;
 /// Evaluations per mode after which a strip is left to counting, and so many at least.
 const EFFORT_EACH: usize = 100;
 const LEAST_EFFORT: usize = 10_000;
@@ -43,6 +46,8 @@ const SAME: f64 = 1e-6;
 const BELOW: f64 = 1e-3;
 /// Where the plane leaves doubt the unstable eigenvalues are counted so often, in m/s.
 const COUNT_STEP: f64 = 0.1;
+/// Or in such parts of the speed, at high speeds.
+const COUNT_PART: f64 = 0.002;
 /// A crossing is had from counts to this part of its speed, or of 1 m/s.
 const COUNTED_TO: f64 = 1e-11;
 /// Where a count meets an eigenvalue on the axis, it is made so much lower, in m/s; so often.
@@ -128,8 +133,10 @@ impl FirstCrossing {
                 _ => plane.by_counting(vibration, self.start, limit)?.unwrap_or(Search::NoneUpTo),
             }));
         }
-        let top = plane.counter.bounds.highest_frequency(from + STRIP);
-        let height = (LARGEST_MOVE * plane.counter.bounds.speed_step(top, from)).clamp(STRIP, LARGEST_STRIP);
+        let least = STRIP.max(STRIP_PART * from);
+        let top = plane.counter.bounds.highest_frequency(from + least);
+        let height = (LARGEST_MOVE * plane.counter.bounds.speed_step(top, from))
+            .clamp(least, LARGEST_STRIP.max(2.0 * STRIP_PART * from));
         let to = limit.min(from + height);
         let searched = plane.search_strip(from, to);
         let first = plane.first_from(from).copied().filter(|zero| zero.speed <= to);
@@ -248,10 +255,12 @@ impl Plane {
     fn search_strip(&mut self, from: f64, to: f64) -> Result<(), Unsettled> {
         self.evaluations = 0;
         self.cell[1] = to - from;
-        self.follow_trend(from, to, self.counter.bounds.highest_frequency(to));
+        let mut top = self.counter.bounds.highest_frequency(to);
+        self.follow_trend(from, to, top);
         self.take_divergence(from, to);
-        let first = self.first_from(from).map_or(to, |zero| zero.speed.min(to));
-        let top = self.counter.bounds.highest_frequency(first);
+        if let Some(first) = self.first_from(from).filter(|zero| zero.speed < to) {
+            top = self.counter.bounds.highest_frequency(first.speed);
+        }
         self.eligible = self.counter.bounds.highest_frequency(from);
         let mut left = [self.corner(0.0, from), self.corner(0.0, to)];
         let mut omega = 0.0;
@@ -267,15 +276,19 @@ impl Plane {
     /// Takes a divergence between two speeds in that shows by the sign of det (K + v² D), so that nothing above it has to
     /// be searched: at λ = 0 neither damping nor C have a part in Q, and D is real.
     fn take_divergence(&mut self, from: f64, to: f64) {
-        let negative = |value: LogDeterminant| value.log.im.cos() < 0.0;
-        let [before, after] = [from, to].map(|speed| self.counter.axis.at(C64::new(0.0, 0.0), speed));
-        if !(before.log.im.is_finite() && after.log.im.is_finite()) || negative(before) == negative(after) {
+        let negative = |log: C64| log.im.cos() < 0.0;
+        let [before, after] = [from, to].map(|speed| {
+            // The corner is wanted anyway; without zeros divided out it has the sign.
+            let corner = self.corner(0.0, speed);
+            if corner.zeros == 0 { corner.log } else { self.counter.axis.at(C64::new(0.0, 0.0), speed).log }
+        });
+        if !(before.im.is_finite() && after.im.is_finite()) || negative(before) == negative(after) {
             return;
         }
         let (mut low, mut high, mut speed) = (from, to, 0.5 * (from + to));
         for _ in 0..BISECTIONS {
             let here = self.counter.axis.at(C64::new(0.0, 0.0), speed);
-            *(if negative(here) == negative(before) { &mut low } else { &mut high }) = speed;
+            *(if negative(here.log) == negative(before) { &mut low } else { &mut high }) = speed;
             let newton = speed - 1.0 / here.by_speed.re;
             let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
             if (next - speed).abs() <= CONVERGED * self.cell[1] {
@@ -303,7 +316,7 @@ impl Plane {
     fn by_counting(&mut self, vibration: &Vibration, from: f64, to: f64) -> Result<Option<Search>, Doubt> {
         let beyond = self.zeros.iter().map(|zero| zero.speed + BELOW * STRIP);
         let mut speeds: Vec<f64> = beyond.filter(|speed| (from..to).contains(speed)).collect();
-        let steps = ((to - from) / COUNT_STEP).ceil().max(1.0);
+        let steps = ((to - from) / COUNT_STEP.max(COUNT_PART * to)).ceil().max(1.0);
         let mut step = 1.0;
         while step <= steps {
             speeds.push(from + (to - from) * step / steps);

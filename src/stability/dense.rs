@@ -51,9 +51,9 @@ impl Eigenproblem {
             }
         };
         for chain in &vibration.chains {
-            for (k, element) in chain.elements.iter().enumerate() {
+            for (k, element) in chain.elements().iter().enumerate() {
                 let outer = next + k;
-                let winch = k + 1 == chain.elements.len();
+                let winch = k + 1 == chain.elements().len();
                 let nodes = [if k == 0 { hub } else { Some(outer - 1) }, (!winch).then_some(outer)];
                 for (i, row) in nodes.into_iter().enumerate() {
                     for (j, column) in nodes.into_iter().enumerate() {
@@ -150,6 +150,7 @@ fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mechanics::Chain;
     use crate::robot::{Motion, paper};
     use crate::stability::Spectra;
     use crate::study::Local;
@@ -170,7 +171,7 @@ mod tests {
         assert!(off < claimed && claimed < 100.0 * off, "{off:e} off, {claimed:e} claimed");
         let mut faster = vibration.clone();
         faster.damping = Damping { alpha: 2.0 * faster.damping.alpha, beta: 0.5 * faster.damping.beta };
-        faster.chains.iter_mut().flat_map(|chain| &mut chain.elements).for_each(|element| element.elastic *= 4.0);
+        faster.chains.iter_mut().flat_map(Chain::elements_mut).for_each(|element| element.elastic *= 4.0);
         let half = 0.5 * of(&faster, 10.0).rounding(Complex::from(0.0));
         assert!((half - claimed).abs() < 1e-12 * claimed, "{half:e} {claimed:e}");
     }

@@ -19,7 +19,10 @@ mod undamped;
 pub use aberth::Spectra;
 pub use characteristic::{Characteristic, LogDeterminant};
 pub use count::unstable_eigenvalues;
-pub use critical::{Critical, CriticalSearch, Kind, Method, Outcome, SCAN_STEP, Sample, structured};
+pub use critical::{
+    ALLOWED_LIMIT, Critical, CriticalSearch, Kind, LARGEST_LIMIT, Method, Outcome, SCAN_STEP, Sample, is_limit,
+    structured,
+};
 pub use crossing::Doubt;
 pub use dense::Eigenproblem;
 pub use modes::{Mode, Polarisation, mode};

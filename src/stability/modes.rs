@@ -81,9 +81,20 @@ pub fn mode(vibration: &Vibration, speed: f64, eigenvalue: C64, polarisation: Po
     }
 }
 
+/// The cable with the largest share of the mode's kinetic energy, 0-based. Of those that have it but for rounding, as in a
+/// symmetric pose, the first one that is reeled in counts, or the first.
+pub(super) fn responsible_cable(vibration: &Vibration, mode: &Mode) -> usize {
+    let first = mode.responsible_cable();
+    // On the diagonal of an element's C is w₀ − w₁ times μ/3 in all: how fast it gets shorter.
+    let reeled_in = |chain: &Chain| chain.elements()[0].transfer.trace() > 0.0;
+    let least = mode.cable_share.get(first).map_or(0.0, |share| share - TIE_OF_SHARES);
+    let tie = |&i: &usize| mode.cable_share[i] >= least && vibration.chains.get(i).is_some_and(reeled_in);
+    (0..mode.cable_share.len()).find(tie).unwrap_or(first)
+}
+
 /// A frequency of the problem, so that a zero eigenvalue has something to be small against.
 pub(super) fn frequency_scale(vibration: &Vibration) -> f64 {
-    let element = vibration.chains[0].elements[0];
+    let element = &vibration.chains[0].elements()[0];
     1e-3 * (element.elastic.amax() / element.mass.amax()).sqrt()
 }
 
@@ -149,7 +160,7 @@ impl<'a> Factors<'a> {
             Hub::Fixed => Matrix2::identity(),
         };
         let mut pivots = Vec::with_capacity(vibration.chains.len());
-        for Chain { elements } in &vibration.chains {
+        for elements in vibration.chains.iter().map(Chain::elements) {
             // Pivot of inner node k: its own block less what the eliminated outer node adds.
             let mut chain_pivots = vec![Matrix2::zeros(); elements.len() - 1];
             let mut outer = Matrix2::zeros();
@@ -172,8 +183,8 @@ impl<'a> Factors<'a> {
         let block = |element: &Element, i, j| block(self.vibration, element, self.speed, self.lambda, i, j);
         let mut x = right.clone();
         for ((chain, pivots), x_chain) in self.vibration.chains.iter().zip(&self.pivots).zip(&mut x.inner) {
-            for k in (1..chain.elements.len()).rev() {
-                let reduced = block(&chain.elements[k - 1], 0, 1) * pivots[k - 1] * x_chain[k - 1];
+            for k in (1..chain.elements().len()).rev() {
+                let reduced = block(&chain.elements()[k - 1], 0, 1) * pivots[k - 1] * x_chain[k - 1];
                 match k {
                     1 => x.hub -= reduced,
                     _ => x_chain[k - 2] -= reduced,
@@ -183,8 +194,8 @@ impl<'a> Factors<'a> {
         x.hub = if x.hub_moves { self.hub * x.hub } else { Displacement::zeros() };
         for ((chain, pivots), x_chain) in self.vibration.chains.iter().zip(&self.pivots).zip(&mut x.inner) {
             let mut inner = x.hub;
-            for k in 1..chain.elements.len() {
-                let reduced = x_chain[k - 1] - block(&chain.elements[k - 1], 1, 0) * inner;
+            for k in 1..chain.elements().len() {
+                let reduced = x_chain[k - 1] - block(&chain.elements()[k - 1], 1, 0) * inner;
                 inner = pivots[k - 1] * reduced;
                 x_chain[k - 1] = inner;
             }
@@ -254,7 +265,7 @@ impl Shape {
                     + element.mass[(1, 1)] * b.norm_squared()
                     + 2.0 * element.mass[(0, 1)] * a.dotc(&b).re
             };
-            chain.elements.iter().enumerate().map(element).sum()
+            chain.elements().iter().enumerate().map(element).sum()
         };
         (platform, vibration.chains.iter().zip(self.per_cable()).map(cable).collect())
     }

@@ -7,6 +7,7 @@
 use nalgebra::Complex;
 
 use crate::mechanics::{Hub, Vibration};
+use crate::stability::modes::responsible_cable;
 use crate::stability::{Critical, Kind, Mode, NotConverged, Polarisation, Spectra, mode};
 
 /// Growth below this part of what it is the sum of is none: modes of which paying out takes what reeling in gives, or
@@ -69,7 +70,7 @@ impl FromRest {
             // Equal but for rounding, the first one counts.
             let faster = self.fastest.as_ref().is_none_or(|(fastest, _)| growth > *fastest + NONE * size);
             if growth > NONE * size && faster {
-                let cable = mode.responsible_cable();
+                let cable = responsible_cable(vibration, &mode);
                 self.fastest = Some((growth, Critical { speed: 0.0, eigenvalue, kind: Kind::Flutter, cable }));
             }
         }
@@ -91,7 +92,7 @@ fn growth(vibration: &Vibration, mode: &Mode) -> [f64; 2] {
         mass = platform * nodes[0].norm_squared();
     }
     for (chain, nodes) in vibration.chains.iter().zip(&mode.displacement) {
-        for (element, pair) in chain.elements.iter().zip(nodes.windows(2)) {
+        for (element, pair) in chain.elements().iter().zip(nodes.windows(2)) {
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let product = pair[i].dotc(&pair[j]).re;
                 transfer += element.transfer[(i, j)] * product;

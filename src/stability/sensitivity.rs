@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 use nalgebra::{Complex, Matrix2};
 
 use super::modes::{Displacement, frequency_scale};
-use crate::mechanics::{Hub, Vibration};
+use crate::mechanics::{Chain, Hub, Vibration};
 use crate::robot::Damping;
 use crate::stability::{Characteristic, Critical, Polarisation, mode};
 
@@ -142,7 +142,7 @@ impl Forms {
             forms.mass = left[0].dot(&right[0]) * mass;
         }
         for (chain, (left, right)) in vibration.chains.iter().zip(left.iter().zip(right)) {
-            for (element, (y, x)) in chain.elements.iter().zip(left.windows(2).zip(right.windows(2))) {
+            for (element, (y, x)) in chain.elements().iter().zip(left.windows(2).zip(right.windows(2))) {
                 let products = Matrix2::from_fn(|i, j| y[i].dot(&x[j]));
                 let form = |block: &Matrix2<f64>| products.zip_map(block, |product, entry| product * entry).sum();
                 forms.mass += form(&element.mass);
@@ -158,7 +158,7 @@ impl Forms {
 /// The problem whose matrices are the transposed ones.
 fn transposed(vibration: &Vibration) -> Vibration {
     let mut transposed = vibration.clone();
-    for element in transposed.chains.iter_mut().flat_map(|chain| &mut chain.elements) {
+    for element in transposed.chains.iter_mut().flat_map(Chain::elements_mut) {
         element.transfer.transpose_mut();
         element.flow.transpose_mut();
     }
@@ -181,7 +181,7 @@ fn is_simple(vibration: &Vibration, lambda: C64, speed: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::{Block, Chain, Element};
+    use crate::mechanics::{Block, Element};
     use crate::stability::Kind;
 
     /// An element of one node that moves, the other being held: a = 3 times the mass, the rest as given.
@@ -197,7 +197,7 @@ mod tests {
     /// Cables of two elements with fixed ends do not know of each other: single oscillators
     /// 2m q̈ + (2 v c + 2 α m) q̇ + 2k q = 0 with c < 0, which lose stability at v = −α m/c with ω² = k/m.
     fn oscillators(elastic: &[f64]) -> Vibration {
-        let chain = |&k: &f64| Chain { elements: vec![element(1.0, -0.1, k); 2] };
+        let chain = |&k: &f64| Chain::new(vec![element(1.0, -0.1, k); 2]).unwrap();
         Vibration {
             chains: elastic.iter().map(chain).collect(),
             hub: Hub::Fixed,
@@ -218,7 +218,7 @@ mod tests {
         assert!((shift.speed - 10.0).abs() < 1e-12 && shift.omega.abs() < 1e-12, "{shift:?}");
         // With m ∂/∂m: dv = v, dω = −ω/2.
         let mut derivative = oscillators(&[0.0, 0.0]);
-        for element in derivative.chains.iter_mut().flat_map(|chain| &mut chain.elements) {
+        for element in derivative.chains.iter_mut().flat_map(Chain::elements_mut) {
             element.transfer = Block::zeros();
         }
         let shift = crossing.shift(&derivative);
@@ -240,7 +240,7 @@ mod tests {
         // Nothing depends on the speed.
         let mut still = oscillators(&[4.0, 9.0]);
         still.damping.alpha = 0.0;
-        for element in still.chains.iter_mut().flat_map(|chain| &mut chain.elements) {
+        for element in still.chains.iter_mut().flat_map(Chain::elements_mut) {
             element.transfer = Block::zeros();
         }
         assert_eq!(Crossing::new(&still, &critical(2.0, 5.0)).err(), Some(NoSensitivity::NotTransversal));

@@ -23,18 +23,18 @@ pub(super) fn squares(vibration: &Vibration) -> Vec<f64> {
     // A Weyl sequence: no two of its values are near each other.
     let mut golden = 0.0_f64;
     for chain in &vibration.chains {
-        let n = chain.elements.len() as f64;
+        let n = chain.elements().len() as f64;
         for direction in 0..directions {
             golden = (golden + 0.618_033_988_749_895).fract();
-            let travel: f64 = chain.elements.iter().map(|e| (line_mass(e) / stiffnesses(e)[direction]).sqrt()).sum();
+            let travel: f64 = chain.elements().iter().map(|e| (line_mass(e) / stiffnesses(e)[direction]).sqrt()).sum();
             let uniform = (n / travel).powi(2) * (1.0 + APART * (golden - 0.5));
-            squares.extend((1..chain.elements.len()).map(|j| {
+            squares.extend((1..chain.elements().len()).map(|j| {
                 let cosine = (PI * j as f64 / n).cos();
                 6.0 * uniform * (1.0 - cosine) / (2.0 + cosine)
             }));
         }
         stiffness += in_series(chain);
-        mass += chain.elements.iter().map(line_mass).sum::<f64>() / 3.0;
+        mass += chain.elements().iter().map(line_mass).sum::<f64>() / 3.0;
     }
     if let Hub::Platform(platform) = vibration.hub {
         let springs = stiffness.symmetric_eigenvalues() / (platform + mass);
@@ -45,7 +45,7 @@ pub(super) fn squares(vibration: &Vibration) -> Vec<f64> {
 
 /// A frequency (rad/s) that no undamped mode exceeds: that of the stiffest element by itself.
 pub(super) fn largest_frequency(vibration: &Vibration) -> f64 {
-    let elements = vibration.chains.iter().flat_map(|chain| &chain.elements);
+    let elements = vibration.chains.iter().flat_map(Chain::elements);
     elements.map(|e| 12.0 * stiffnesses(e)[1] / line_mass(e)).fold(0.0, f64::max).sqrt()
 }
 
@@ -65,7 +65,7 @@ pub(super) fn traces(vibration: &Vibration) -> [f64; 2] {
 fn trace(vibration: &Vibration, of: impl Fn(&Element) -> Block) -> f64 {
     let entry = |e: &Element, i: usize, j: usize| Dual64::new(e.mass[(i, j)], of(e)[(i, j)]);
     let (mut log, mut hub) = (Dual64::from(0.0), Dual64::from(0.0));
-    for Chain { elements } in &vibration.chains {
+    for elements in vibration.chains.iter().map(Chain::elements) {
         let mut outer = Dual64::from(0.0);
         for pair in elements.windows(2).rev() {
             let pivot = entry(&pair[0], 1, 1) + entry(&pair[1], 0, 0) - outer;
@@ -94,7 +94,8 @@ fn stiffnesses(element: &Element) -> [f64; 2] {
 
 /// The stiffness that a cable without mass holds the platform with.
 fn in_series(chain: &Chain) -> Matrix2<f64> {
-    let compliance = chain.elements.iter().filter_map(|e| e.elastic.try_inverse()).fold(Matrix2::zeros(), |a, b| a + b);
+    let compliance =
+        chain.elements().iter().filter_map(|e| e.elastic.try_inverse()).fold(Matrix2::zeros(), |a, b| a + b);
     compliance.try_inverse().unwrap_or_else(Matrix2::zeros)
 }
 
@@ -117,7 +118,7 @@ mod tests {
                 flow: flow_stiffness(0.4, l, [0.0; 2], [0.0; 2]),
                 elastic: elastic(material, linearisation, l, Vec2::new(0.6, 0.8) * tension),
             };
-            Chain { elements: vec![element; 7] }
+            Chain::new(vec![element; 7]).unwrap()
         };
         Vibration {
             chains: cables.iter().map(chain).collect(),

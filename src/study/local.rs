@@ -41,7 +41,9 @@ impl Local {
         let Some(rates) = mechanics::length_rates(robot, &statics, direction) else {
             return Err(failed(statics));
         };
-        let vibration = Vibration::new(robot, &statics, &rates);
+        let Some(vibration) = Vibration::new(robot, &statics, &rates) else {
+            return Err(failed(statics));
+        };
         match Spectra::new(&vibration) {
             Ok(spectra) => {
                 let wave_limit = mechanics::wave_limit(robot, &statics, &rates);

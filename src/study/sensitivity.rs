@@ -28,7 +28,8 @@ pub fn sensitivities(robot: &Robot, motion: &Motion, critical: &Critical) -> Res
     let out_of_range = NoSensitivity::OutOfRange;
     let statics = mechanics::solve(robot, motion.position()).map_err(|_| out_of_range)?;
     let rates = mechanics::length_rates(robot, &statics, motion.direction()).ok_or(out_of_range)?;
-    let crossing = Crossing::new(&Vibration::new(robot, &statics, &rates), critical)?;
+    let vibration = Vibration::new(robot, &statics, &rates).ok_or(out_of_range)?;
+    let crossing = Crossing::new(&vibration, critical)?;
     let damping = robot.damping;
     let sensitivity = |knob: Knob| {
         // The shift per unit of ln p.

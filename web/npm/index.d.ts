@@ -240,7 +240,7 @@ export interface EmptyMapRow {
 // ---- Functions ---------------------------------------------------------------------------------------------------
 
 export interface SearchOptions {
-    /** Critical speeds are searched up to this speed in m/s, greater than 0. 40 unless given. */
+    /** Critical speeds are searched up to this speed in m/s, greater than 0 and at most 10000. 40 unless given. */
     maxSpeed?: number | undefined;
 }
 

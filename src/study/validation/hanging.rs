@@ -67,10 +67,11 @@ impl Hanging {
         })?;
         let statics = mechanics::solve(&robot, Vec2::zeros()).map_err(|failure| failure.reason)?;
         let at_rest = [LengthRates { first: 0.0, second: 0.0 }; 3];
-        let mut vibration = Vibration::new(&robot, &statics, &at_rest);
-        vibration.chains.drain(..2);
+        let vibration = Vibration::new(&robot, &statics, &at_rest).ok_or(Failed::Nothing("problem"))?;
+        let own = vibration.chains().iter().skip(2).cloned().collect();
+        let alone = Vibration::of_cables(own, Hub::Fixed, robot.damping, false).ok_or(Failed::Nothing("cable"))?;
         let shape = statics.cables.into_iter().nth(2).ok_or(Failed::Nothing("third cable"))?;
-        Ok((shape, Vibration { hub: Hub::Fixed, ..vibration }))
+        Ok((shape, alone))
     }
 
     /// The first frequency in Hz on 20 and 40 elements, with `tension` at the lower end.

@@ -22,7 +22,7 @@ fn wave_speed() -> f64 {
 }
 
 /// A string of n elements with the flow `inflow(k)` = [w₀, w₁] through element k, in m/s.
-fn string(n: usize, damping: Damping, inflow: impl Fn(usize) -> [f64; 2]) -> Vibration {
+fn string(n: usize, damping: Damping, inflow: impl Fn(usize) -> [f64; 2]) -> Result<Vibration, Failed> {
     let l = LENGTH / n as f64;
     let elements = (0..n).map(|k| Element {
         mass: mechanics::mass(MU, l),
@@ -30,7 +30,8 @@ fn string(n: usize, damping: Damping, inflow: impl Fn(usize) -> [f64; 2]) -> Vib
         flow: mechanics::flow_stiffness(MU, l, inflow(k), [0.0, 0.0]),
         elastic: mechanics::elastic(MATERIAL, Linearisation::Secant, l, Vec2::new(TENSION, 0.0)),
     });
-    Vibration { chains: vec![Chain { elements: elements.collect() }], hub: Hub::Fixed, damping, isotropic: true }
+    let chain = Chain::new(elements.collect()).ok_or(Failed::Nothing("element"))?;
+    Vibration::of_cables(vec![chain], Hub::Fixed, damping, true).ok_or(Failed::Nothing("cable"))
 }
 
 /// The lowest frequency in Hz of a string that travels at v, for ever finer meshes: expected is (c² − v²)/(2 L c).
@@ -38,7 +39,7 @@ fn lowest_frequency(v: f64) -> Result<Outcome, Failed> {
     let c = wave_speed();
     let on_mesh = |n: usize| -> Result<f64, Failed> {
         // The speed 1 carries the flow v: the matrices are those of unit speed.
-        let spectrum = Eigenproblem::new(&string(n, UNDAMPED, |_| [v, v]))?.spectrum(1.0)?;
+        let spectrum = Eigenproblem::new(&string(n, UNDAMPED, |_| [v, v])?)?.spectrum(1.0)?;
         spectrum.modes().next().map(|mode| mode.frequency_hz()).ok_or(Failed::Nothing("mode"))
     };
     let expected = (c * c - v * v) / (2.0 * LENGTH * c);
@@ -64,7 +65,7 @@ pub fn travelling() -> Result<Outcome, Failed> {
 /// and damping is complete (Kelvin, Tait and Chetaev).
 pub fn critical_speed() -> Result<Outcome, Failed> {
     let expected = wave_speed();
-    let vibration = string(10, Damping { alpha: 0.5, beta: 0.005 }, |_| [1.0, 1.0]);
+    let vibration = string(10, Damping { alpha: 0.5, beta: 0.005 }, |_| [1.0, 1.0])?;
     let stability::Outcome::Found(critical) = CriticalSearch::new(2.0 * expected).run(&vibration)? else {
         return Err(Failed::Nothing("critical speed"));
     };
@@ -78,7 +79,7 @@ pub fn frozen_growth() -> Result<Outcome, Failed> {
     let part = 0.01;
     let rate = -part * wave_speed();
     let inflow = |k: usize| [-(k as f64), -((k + 1) as f64)].map(|node| node * rate / N as f64);
-    let vibration = string(N, UNDAMPED, inflow);
+    let vibration = string(N, UNDAMPED, inflow)?;
     let expected = -rate / (2.0 * LENGTH);
     let spectrum = Eigenproblem::new(&vibration)?.spectrum(1.0)?;
     let got = spectrum.modes().next().map(|mode| mode.eigenvalue.re).ok_or(Failed::Nothing("mode"))?;
