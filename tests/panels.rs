@@ -109,7 +109,8 @@ fn the_edges_of_panels_can_be_dragged_and_the_canvas_keeps_some_room() {
     assert!((from - wider).abs() < 0.5 && to - from >= 315.0, "{from} {to}");
     drag(&mut app, at(from - 1.0), at(1200.0));
     settle(&mut app);
-    assert_eq!(between(&app).map(f32::round), [from, to].map(f32::round), "there is no room left");
+    let now = between(&app);
+    assert!((now[0] - from).abs() + (now[1] - to).abs() < 0.5, "there is no room left: {now:?}");
 }
 
 fn wheel(app: &mut App, at: Pos2, by: f32) {

@@ -5,7 +5,7 @@ mod queue;
 #[cfg(target_arch = "wasm32")]
 mod web;
 
-use eframe::egui::{Context, LayerId, Plugin, Pos2, RawInput, Rect, Response, ScrollArea, Ui};
+use eframe::egui::{Context, IdSalt, LayerId, Plugin, Pos2, RawInput, Rect, Response, ScrollArea, Ui};
 use queue::Queue;
 
 /// Registers what is in here with egui.
@@ -69,7 +69,7 @@ pub fn scroll<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
         && ui.ctx().layer_id_at(from) == Some(ui.layer_id())
     {
         // egui's name for what is dragged when a finger drags the content.
-        ui.ctx().set_dragged_id(ui.make_persistent_id(SALT).with("area"));
+        ui.ctx().set_dragged_id(ui.make_persistent_id(IdSalt::new(SALT)).with("area"));
     }
     ScrollArea::both().id_salt(SALT).auto_shrink(false).show(ui, content).inner
 }

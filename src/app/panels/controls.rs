@@ -106,7 +106,7 @@ fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
             ui.add(name).explained(field.meaning)
         });
         let name = column.inner;
-        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER.x - 38.0).clamp(60.0, 260.0);
+        ui.spacing_mut().slider_width = (ui.available_width() - NUMBER.x - 38.0).clamp(40.0, 260.0);
         let before = unit.shown(value);
         let mut shown = before;
         // A number beyond the range stays as it is.
