@@ -10,6 +10,8 @@ const WIDEST: f32 = 340.0;
 pub trait Explain: Sized {
     /// Says what it means.
     fn explained(self, text: impl Into<WidgetText>) -> Self;
+    /// Says more of what lies on something that takes the clicks, such as a table's row: to those who rest on it.
+    fn explained_at_rest(self, text: impl Into<WidgetText>) -> Self;
     /// Says why it is grey, where it is.
     fn grey_because(self, ui: &Ui, text: impl Into<WidgetText>) -> Self;
 }
@@ -23,6 +25,10 @@ impl Explain for Response {
         let asked = response.long_touched() || (!acts && response.clicked());
         show(&response, asked, text.clone());
         response.on_hover_text(text)
+    }
+
+    fn explained_at_rest(self, text: impl Into<WidgetText>) -> Self {
+        self.on_hover_text(text)
     }
 
     fn grey_because(self, ui: &Ui, text: impl Into<WidgetText>) -> Self {

@@ -123,7 +123,7 @@ fn show(ui: &mut Ui, cell: String, exact: String, grows: bool) {
     // A selectable label would keep the click from the row.
     let response = ui.add(Label::new(RichText::new(cell).color(colour)).selectable(false));
     if !exact.is_empty() {
-        response.on_hover_text(exact);
+        response.explained_at_rest(exact);
     }
 }
 
