@@ -2,11 +2,16 @@
 
 #![cfg(feature = "compute")]
 
+use std::time::{Duration, Instant};
+
+use nalgebra::Complex;
+use tautline::Local;
 use tautline::compute::Engine;
-use tautline::compute::protocol::{Job, ModeChoice, Reply, Request, Update, Which};
-use tautline::robot::Linearisation;
+use tautline::compute::protocol::{Extent, Job, ModeChoice, Reply, Request, Update, Which};
+use tautline::robot::{Linearisation, TensionLaw};
 use tautline::scenario::report::KnobReport;
 use tautline::scenario::{Report, Scenario, presets};
+use tautline::stability::{Polarisation, mode};
 use tautline::study::validation::CHECKS;
 
 /// The parameters of the paper's robot.
@@ -114,7 +119,11 @@ fn the_newest_pose_is_served_first_and_only_the_newest_search_need_finish() {
     slow.linearisation = Linearisation::Tangent;
     slow.elements_per_cable = 16;
     engine.submit(job(1, &slow, CRITICAL));
-    let first = engine.work().expect("work");
+    // Slices without a reply are work on it.
+    let served = |engine: &mut Engine| -> Vec<Reply> {
+        std::iter::from_fn(|| engine.work()).find(|replies| !replies.is_empty()).expect("work")
+    };
+    let first = served(&mut engine);
     assert!(matches!(first[0].update, Update::Pose(_)) && first[0].revision == 1);
     for _ in 0..3 {
         engine.work().expect("a search");
@@ -122,7 +131,7 @@ fn the_newest_pose_is_served_first_and_only_the_newest_search_need_finish() {
     for revision in 2..=9 {
         engine.submit(job(revision, &paper_at(0.5 * f64::from(u8::try_from(revision).unwrap())), CRITICAL));
     }
-    let next = engine.work().expect("work");
+    let next = served(&mut engine);
     assert!(matches!(next[0].update, Update::Pose(_)), "{next:?}");
     assert_eq!(next[0].revision, 9, "jobs between the running and the newest one are skipped");
     let rest = finish(&mut engine);
@@ -196,7 +205,7 @@ fn without_eigenvalues_the_pose_and_the_critical_speed_are_answered_all_the_same
         }
     }
     let pose = pose.expect("a pose");
-    assert!(pose.modes.is_empty() && pose.report.eigenvalues.is_empty(), "{} modes", pose.modes.len());
+    assert!(pose.report.eigenvalues.is_empty() && pose.extent == Extent::SlowestAlone, "{} modes", pose.modes.len());
     assert_eq!((pose.report.stable, pose.report.cables.len()), (Some(true), 4));
     assert_eq!(pose.report.reason.as_deref(), Some("The eigenvalues could not be computed."));
     let speed = critical.expect("a critical speed").speed;
@@ -273,4 +282,68 @@ fn checks_of_known_numbers_are_done_when_all_else_is_done() {
     assert!((got - expected).abs() <= tolerance, "{answer:?}");
     engine.submit(Request::Check(CHECKS.len()));
     assert_eq!(finish(&mut engine), [], "there is no such check");
+}
+
+/// The largest legal robot: 8 cables of 200 elements.
+fn largest(linearisation: Linearisation) -> Scenario {
+    let mut scenario = Scenario { linearisation, elements_per_cable: 200, ..paper_at(0.0) };
+    for anchor in [[-9.0, -6.0], [9.0, -6.0], [-8.0, -7.0], [8.0, -7.0]] {
+        let mut cable = scenario.cables[2];
+        (cable.anchor, cable.tension) = (anchor, TensionLaw::Constant(70.0));
+        scenario.cables.push(cable);
+    }
+    scenario
+}
+
+/// So long takes a mode's shape, ten times: what slices are measured with, since machines differ and are busy.
+fn unit(scenario: &Scenario) -> Duration {
+    let (robot, motion) = scenario.to_robot().expect("physical");
+    let local = Local::new(&robot, &motion).map_err(|failure| failure.reason).expect("a pose");
+    let begun = Instant::now();
+    for k in 0..10 {
+        std::hint::black_box(mode(&local.vibration, 5.0, Complex::new(-0.1, f64::from(k)), Polarisation::X));
+    }
+    begun.elapsed()
+}
+
+/// All its modes take seconds or minutes, its search takes tenths of a second: none of it is done at a stretch. The slowest
+/// modes come at once, and are told to be that.
+#[test]
+fn the_largest_robot_shows_its_slowest_modes_at_once_and_gives_way_after_any_slice() {
+    for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
+        let scenario = largest(linearisation);
+        let unit = unit(&scenario);
+        let mut engine = Engine::default();
+        let mut longest = Duration::ZERO;
+        let mut work = |engine: &mut Engine| {
+            let begun = Instant::now();
+            let replies = engine.work().expect("work");
+            longest = longest.max(begun.elapsed());
+            replies
+        };
+        let mut revision = 0;
+        // In the middle of the pose, of the search, and of all modes.
+        for slices in [0, 30, 150] {
+            revision += 2;
+            engine.submit(job(revision, &scenario, CRITICAL));
+            let mut first = Vec::new();
+            while first.is_empty() {
+                first = work(&mut engine);
+            }
+            let [Reply { update: Update::Pose(pose), .. }] = &first[..] else { panic!("{first:?}") };
+            assert_eq!((pose.extent, pose.report.cables.len(), pose.modes.len()), (Extent::SlowestSoFar, 8, 24));
+            assert!(pose.report.eigenvalues.is_empty() && pose.report.stable == Some(true), "{:?}", pose.report.stable);
+            assert!(pose.modes.windows(2).all(|pair| pair[0].frequency_hz <= pair[1].frequency_hz));
+            assert!(pose.modes.iter().all(|mode| (0.05..5.0).contains(&mode.frequency_hz)), "{:?}", pose.modes);
+            for _ in 0..slices {
+                work(&mut engine);
+            }
+            engine.submit(job(revision + 1, &paper_at(2.0), CRITICAL));
+            let newer = (0..).take(40).find(|_| work(&mut engine).iter().any(|reply| reply.revision == revision + 1));
+            assert!(newer.is_some(), "{linearisation:?}: 40 slices of what has been left, after {slices}");
+            // The newer one is answered to its end.
+            while !work(&mut engine).iter().any(|reply| matches!(reply.update, Update::Sensitivities(_))) {}
+        }
+        assert!(longest < 40 * unit, "{linearisation:?}: a slice of {longest:?}, ten shapes in {unit:?}");
+    }
 }

@@ -139,10 +139,13 @@ fn rooms_use_only_those_before_them() {
 
 /// What the interface may name of the numerics: plain data, where things are, and sums over a handful of values. All else
 /// would compute on the thread that draws; it belongs to the engine or to the pool.
-const NAMED_BY_THE_APP: [&str; 13] = [
+const NAMED_BY_THE_APP: [&str; 16] = [
     "robot",
     "stability::Critical",
     "stability::Kind",
+    "stability::TIE_OF_SHARES",
+    "stability::first_largest",
+    "stability::first_lowest",
     "study::Grid",
     "study::Line",
     "study::Verdict",

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use web_time::Instant;
 
-use crate::compute::protocol::{CriticalAnswer, Failed, ModeShape, PoseAnswer, Reply, Revision, Update};
+use crate::compute::protocol::{CriticalAnswer, Extent, Failed, ModeShape, PoseAnswer, Reply, Revision, Update};
 use crate::scenario::Report;
 use crate::scenario::report::SensitivityReport;
 
@@ -62,6 +62,7 @@ impl Answers {
             Update::Pose(pose) => {
                 self.failed = None;
                 self.pose = Some((revision, *pose));
+                self.complete(revision);
             }
             Update::Failed(failed) => {
                 self.complete = Some((revision, failed.report.clone()));
@@ -78,15 +79,21 @@ impl Answers {
     }
 
     fn take_critical(&mut self, revision: Revision, answer: CriticalAnswer) {
-        // The pose may be newer: a search that was under way was allowed to finish.
-        if let Some((_, pose)) = self.pose.as_ref().filter(|(known, _)| *known == revision) {
-            self.complete = Some((revision, answer.completed(pose.report.clone())));
-        }
         self.critical = Some((revision, answer));
+        self.complete(revision);
         while let Some((asked, at)) = self.asked.pop_front_if(|(asked, _)| *asked <= revision) {
             if asked == revision {
                 self.trail_ms = Some(1e3 * at.elapsed().as_secs_f64());
             }
+        }
+    }
+
+    /// Puts the analysis of a revision together, where all of it is there. The pose may be newer: a search that was under way
+    /// was allowed to finish.
+    fn complete(&mut self, revision: Revision) {
+        let (Some((of_pose, pose)), Some((of_search, answer))) = (&self.pose, &self.critical) else { return };
+        if (*of_pose, *of_search) == (revision, revision) && pose.extent != Extent::SlowestSoFar {
+            self.complete = Some((revision, answer.completed(pose.report.clone())));
         }
     }
 
@@ -184,7 +191,7 @@ impl Answers {
     }
 
     /// The last complete analysis, its revision, and whether it belongs to the document as it is.
-    pub fn complete(&self) -> Option<(&Report, Revision, bool)> {
+    pub fn last_complete(&self) -> Option<(&Report, Revision, bool)> {
         self.complete.as_ref().map(|(revision, report)| (report, *revision, *revision == self.revision))
     }
 }

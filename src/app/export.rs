@@ -8,7 +8,7 @@ use crate::app::Facts;
 use crate::app::series::{self, degrees};
 use crate::app::state::Plot;
 use crate::app::studies::Known;
-use crate::compute::protocol::{Missing, PlaceAnswer, StudyChoice, Topic, VerdictAnswer};
+use crate::compute::protocol::{Extent, Missing, PlaceAnswer, StudyChoice, Topic, VerdictAnswer};
 use crate::scenario::report::StatusReport;
 use crate::study::evenly;
 
@@ -125,7 +125,7 @@ pub fn map(facts: Facts<'_>) -> Option<Table> {
 
 /// The table of modes.
 fn modes(facts: Facts<'_>) -> Option<Table> {
-    let pose = facts.answers.pose()?;
+    let pose = facts.answers.pose().filter(|pose| pose.extent != Extent::SlowestSoFar)?;
     let header = ["real", "imaginary", "multiplicity", "frequency_hz", "damping_ratio", "platform_share"];
     let mut table = Table::new(&header);
     table.header.extend((1..=pose.report.cables.len()).map(|cable| format!("cable_{cable}_share")));
@@ -212,7 +212,7 @@ fn places(known: &Known) -> Option<Table> {
 
 /// The analysis as JSON, where it is complete and belongs to the document as it is.
 pub fn analysis(facts: Facts<'_>) -> Option<String> {
-    let (report, _, current) = facts.answers.complete()?;
+    let (report, _, current) = facts.answers.last_complete()?;
     let value: Value = serde_json::to_value(report).ok()?;
     current.then(|| serde_json::to_string_pretty(&value).ok()).flatten()
 }

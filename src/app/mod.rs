@@ -268,7 +268,7 @@ impl Tautline {
 
     /// The last complete analysis.
     pub fn analysis(&self) -> Option<OnShow<'_>> {
-        self.present.answers.complete().map(|(report, revision, current)| OnShow { report, revision, current })
+        self.present.answers.last_complete().map(|(report, revision, current)| OnShow { report, revision, current })
     }
 
     /// The newest message on the screen, such as that input was refused.

@@ -139,7 +139,7 @@ impl Page {
         shared.publish_studies(studies);
         shared.trail_ms = answers.trail_ms();
         shared.analysis_ms = answers.last_critical().map(|answer| answer.elapsed_ms);
-        if let Some((report, revision, current)) = answers.complete()
+        if let Some((report, revision, current)) = answers.last_complete()
             && shared.analysis_key != Some((revision, current))
         {
             shared.analysis_key = Some((revision, current));

@@ -1,9 +1,11 @@
 //! The engine: takes the newest request, works in slices, replies as soon as something is known.
 //!
-//! The pose (shapes, spectrum, modes) of a new request is always served first: that is what follows the pointer. A
-//! search for the critical speed that is under way may finish if it does so soon; otherwise a drag would never show
-//! one, since each new position would start it again.
+//! The pose (shapes, spectrum, modes) of a new request is always served first: that is what follows the pointer. Where all
+//! of its modes take long, the slowest ones are served at once, and all of them after the critical speed. A search for the
+//! critical speed that is under way may finish if it does so soon; otherwise a drag would never show one, since each new
+//! position would start it again. Everything else that is under way is dropped for a newer pose after any slice.
 
+use std::sync::Arc;
 use std::time::Duration;
 
 use nalgebra::Complex;
@@ -11,19 +13,24 @@ use web_time::Instant;
 
 use super::places::search_limit;
 use super::protocol::{
-    CheckAnswer, CriticalAnswer, DrawnShape, Failed, Job, ModeChoice, ModeRow, ModeShape, PoseAnswer, Reply, Request,
-    Revision, Update, Which,
+    CheckAnswer, CriticalAnswer, DrawnShape, Extent, Failed, Job, ModeChoice, ModeRow, ModeShape, PoseAnswer, Reply,
+    Request, Revision, Update, Which,
 };
 use crate::mechanics::CableShape;
 use crate::robot::{Motion, Robot, Vec2};
 use crate::scenario::report::{CriticalReport, SensitivityReport, StatusReport, sentence};
 use crate::scenario::{Report, Scenario};
-use crate::stability::{self, CriticalSearch, Outcome, Polarisation, Spectrum};
+use crate::stability::steps::step;
+use crate::stability::{self, CriticalSearch, ModeValue, Outcome, Polarisation, Spectrum, Steps};
 use crate::study::validation::CHECKS;
-use crate::study::{Local, sensitivities};
+use crate::study::{Local, sensitivities_in_steps};
 
-/// A slice of the search ends after this time, so that a newer request is seen soon.
+/// A slice ends after this time, so that a newer request is seen soon.
 const SLICE: Duration = Duration::from_millis(8);
+/// A pose is served with all its modes where they take no longer than this, else with the slowest ones first.
+const PROMPT: Duration = Duration::from_millis(50);
+/// So many of them: more than the table of modes shows at once.
+const SLOWEST: usize = 24;
 /// A search that has run for longer is dropped for a newer pose.
 const PATIENCE: Duration = Duration::from_millis(400);
 /// A curve of growth rates that has taken longer is dropped for a newer pose; others are finished, so that a drag shows
@@ -47,6 +54,8 @@ pub struct Engine {
     job: Option<(Job, Instant)>,
     /// A mode choice that came after the job.
     choice: Option<ModeChoice>,
+    /// The pose that is about to be served.
+    first: Option<Pose>,
     /// The newest pose; its search has not begun.
     waiting: Option<Pose>,
     /// The pose whose critical speed is being searched for or has been found.
@@ -61,11 +70,16 @@ pub struct Engine {
 struct Pose {
     revision: Revision,
     robot: Robot,
-    local: Local,
+    local: Arc<Local>,
     motion: Motion,
-    /// At today's speed, where it could be computed.
-    spectrum: Option<Spectrum>,
-    /// How long that took.
+    /// All modes at today's speed, as long as they are being computed.
+    all: Option<Steps<AllModes>>,
+    /// Those that are known.
+    modes: Vec<ModeRow>,
+    extent: Extent,
+    /// The eigenvalue with the largest real part, of those that are known.
+    rightmost: Option<Complex<f64>>,
+    /// How long all modes have taken.
     effort: Duration,
     /// What is known before the critical speed.
     report: Report,
@@ -73,15 +87,39 @@ struct Pose {
     limit: f64,
     submitted: Instant,
     stage: Stage,
+    /// The curve, once its end is known.
+    curve: Option<Curve>,
     /// What the search has found, once it has ended; or why it has failed, as a sentence.
     outcome: Option<Result<Outcome, String>>,
 }
 
 enum Stage {
-    Searching { search: CriticalSearch, since: Instant },
-    Curve { from: f64, next: u32, to: f64, last: u32, points: Vec<[f64; 2]>, since: Instant },
-    Sensitivities,
+    /// All modes, as long as that is prompt.
+    Prompt,
+    /// The slowest ones first.
+    Slowest(Steps<Vec<ModeRow>>),
+    Searching {
+        search: CriticalSearch,
+        since: Instant,
+    },
+    /// The rest of the modes.
+    All,
+    Curve {
+        steps: Steps<Vec<[f64; 2]>>,
+        since: Instant,
+    },
+    Sensitivities(Steps<Result<Vec<SensitivityReport>, String>>),
     Done,
+}
+
+/// All modes of a pose with its spectrum; `None` where that could not be computed.
+type AllModes = Option<(Spectrum, Vec<ModeRow>)>;
+
+/// The curve of growth rates that is to be computed: a scan has left the `points` up to the speed `from`.
+struct Curve {
+    points: Vec<[f64; 2]>,
+    from: f64,
+    to: f64,
 }
 
 /// What a slice of work gives: replies, possibly none, while there is more to do.
@@ -106,6 +144,9 @@ impl Engine {
     }
 
     fn analyse(&mut self) -> Option<Slice> {
+        if self.first.is_some() {
+            return Some(self.serve_first());
+        }
         if let Some((job, submitted)) = self.job.take() {
             return Some(self.begin(&job, submitted));
         }
@@ -125,7 +166,7 @@ impl Engine {
                 let recent = self.last_curve.is_some_and(|last| last.elapsed() < CURVE_PAUSE);
                 overtaken && (recent || since.elapsed() > CURVE_PATIENCE)
             }
-            Stage::Sensitivities => overtaken,
+            Stage::Prompt | Stage::Slowest(_) | Stage::All | Stage::Sensitivities(_) => overtaken,
             Stage::Done => true,
         };
         if finished {
@@ -146,12 +187,8 @@ impl Engine {
         self.waiting = None;
         match Pose::new(job, submitted) {
             Ok(pose) => {
-                let mut replies = vec![pose.reply(Update::Pose(Box::new(pose.answer())))];
-                if job.mode.which != Which::Critical {
-                    replies.extend(pose.shape());
-                }
-                self.waiting = Some(pose);
-                replies
+                self.first = Some(pose);
+                self.serve_first()
             }
             Err(failed) => {
                 // Whatever is being searched for belongs to a pose that has been left.
@@ -162,19 +199,78 @@ impl Engine {
     }
 }
 
+impl Engine {
+    /// Goes on with the pose that is about to be served. It is served whatever comes, for its slowest modes are there soon:
+    /// a drag is to show something.
+    fn serve_first(&mut self) -> Slice {
+        let Some(pose) = &mut self.first else { return Vec::new() };
+        if !pose.first_slice() {
+            return Vec::new();
+        }
+        let replies = pose.serve();
+        self.waiting = self.first.take();
+        replies
+    }
+}
+
 impl Stage {
     fn searching(limit: f64) -> Self {
         Self::Searching { search: CriticalSearch::new(limit), since: Instant::now() }
     }
+}
 
-    /// The curve of growth rates up to the speed `to`, of which a scan has left the `points` up to the speed `from`.
-    /// One of its points takes about the time `effort`.
-    fn curve(points: Vec<[f64; 2]>, from: f64, to: f64, effort: Duration) -> Self {
-        let (next, most) = if points.is_empty() { (0, CURVE_POINTS) } else { (1, CURVE_POINTS_BEYOND) };
+impl Curve {
+    /// Its points, each of which takes about the time `effort`.
+    fn steps(self, local: Arc<Local>, effort: Duration) -> Steps<Vec<[f64; 2]>> {
+        let Self { mut points, from, to } = self;
+        let (first, most) = if points.is_empty() { (0, CURVE_POINTS) } else { (1, CURVE_POINTS_BEYOND) };
         let affordable = CURVE_TIME.as_micros() / effort.as_micros().max(1);
         let last = u32::try_from(affordable).unwrap_or(most).clamp(LEAST_CURVE_POINTS, most);
-        Self::Curve { from, next, to, last, points, since: Instant::now() }
+        Steps::new(async move {
+            let mut spectra = local.spectra.clone();
+            for next in (first..=last).take_while(|_| to > from) {
+                let speed = from + (to - from) * f64::from(next) / f64::from(last);
+                // The answer stands without a point of its curve.
+                if let Ok(spectrum) = spectra.spectrum_in_steps(&local.vibration, speed).await {
+                    points.push([speed, spectrum.growth_rate()]);
+                }
+                step().await;
+            }
+            points
+        })
     }
+}
+
+/// All modes of a pose at `speed` (m/s), in steps.
+async fn all_modes(local: Arc<Local>, speed: f64, polarisation: Polarisation) -> AllModes {
+    let spectrum = local.spectra.clone().spectrum_in_steps(&local.vibration, speed).await.ok()?;
+    let values = spectrum.modes().collect();
+    let rows = rows(&local, speed, values, polarisation).await;
+    Some((spectrum, rows))
+}
+
+/// Its slowest ones.
+async fn slowest_modes(local: Arc<Local>, speed: f64, polarisation: Polarisation) -> Vec<ModeRow> {
+    let values = local.spectra.slowest_in_steps(speed, SLOWEST).await;
+    rows(&local, speed, values, polarisation).await
+}
+
+/// Rows of the table of modes.
+async fn rows(local: &Local, speed: f64, values: Vec<ModeValue>, polarisation: Polarisation) -> Vec<ModeRow> {
+    let mut rows = Vec::with_capacity(values.len());
+    for value in values {
+        let mode = stability::mode(&local.vibration, speed, value.eigenvalue, polarisation);
+        rows.push(ModeRow {
+            eigenvalue: [value.eigenvalue.re, value.eigenvalue.im],
+            multiplicity: value.multiplicity,
+            frequency_hz: value.frequency_hz(),
+            damping_ratio: value.damping_ratio(),
+            cable_share: mode.cable_share,
+            platform_share: mode.platform_share,
+        });
+        step().await;
+    }
+    rows
 }
 
 impl Pose {
@@ -196,20 +292,23 @@ impl Pose {
                 shapes: failure.cables.iter().map(|shape| shape.as_ref().map(drawn)).collect(),
             })
         })?;
-        let begun = Instant::now();
-        let spectrum = local.spectrum(motion.speed()).ok();
+        let local = Arc::new(local);
         Ok(Self {
             revision: job.revision,
-            effort: begun.elapsed(),
-            report: Report::of_pose(&local, motion.speed(), spectrum.as_ref()),
+            all: Some(Steps::new(all_modes(local.clone(), motion.speed(), polarisation(job.mode)))),
+            modes: Vec::new(),
+            extent: Extent::SlowestSoFar,
+            rightmost: None,
+            effort: Duration::ZERO,
+            report: Report::unknown("", motion.speed()),
             robot,
             local,
             motion,
-            spectrum,
             choice: job.mode,
             limit,
             submitted,
-            stage: Stage::searching(limit),
+            stage: Stage::Prompt,
+            curve: None,
             outcome: None,
         })
     }
@@ -218,28 +317,81 @@ impl Pose {
         Reply { revision: self.revision, update }
     }
 
-    fn answer(&self) -> PoseAnswer {
-        let modes = self.spectrum.iter().flat_map(Spectrum::modes).map(|value| {
-            let mode = self.mode(self.motion.speed(), value.eigenvalue);
-            ModeRow {
-                eigenvalue: [value.eigenvalue.re, value.eigenvalue.im],
-                multiplicity: value.multiplicity,
-                frequency_hz: value.frequency_hz(),
-                damping_ratio: value.damping_ratio(),
-                cable_share: mode.cable_share,
-                platform_share: mode.platform_share,
+    /// A slice of what is served first; whether that is there.
+    fn first_slice(&mut self) -> bool {
+        let begun = Instant::now();
+        while begun.elapsed() < SLICE {
+            match &mut self.stage {
+                Stage::Prompt => {
+                    self.go_on_with_all(begun);
+                    if self.all.is_none() && self.extent == Extent::All {
+                        return true;
+                    }
+                    if self.all.is_none() || self.effort > PROMPT {
+                        let polarisation = polarisation(self.choice);
+                        let slowest = slowest_modes(self.local.clone(), self.motion.speed(), polarisation);
+                        self.stage = Stage::Slowest(Steps::new(slowest));
+                    }
+                }
+                Stage::Slowest(steps) => {
+                    if let Some(rows) = steps.advance() {
+                        self.modes = rows;
+                        let values = self.modes.iter().map(|row| Complex::new(row.eigenvalue[0], row.eigenvalue[1]));
+                        self.rightmost = values.max_by(|a, b| a.re.total_cmp(&b.re));
+                        if self.all.is_some() {
+                            self.report = Report::without_eigenvalues(&self.local, self.motion.speed());
+                        }
+                        return true;
+                    }
+                }
+                _ => return true,
             }
-        });
-        PoseAnswer {
-            report: self.report.clone(),
-            axial_forces: self.local.statics.cables.iter().map(axial_forces).collect(),
-            modes: modes.collect(),
+        }
+        false
+    }
+
+    /// Computes all modes for the rest of a slice that has `begun`.
+    fn go_on_with_all(&mut self, begun: Instant) {
+        let from = Instant::now();
+        let mut found = None;
+        while let (None, Some(steps)) = (&found, &mut self.all)
+            && begun.elapsed() < SLICE
+        {
+            found = steps.advance();
+        }
+        self.effort += from.elapsed();
+        let Some(found) = found else { return };
+        self.all = None;
+        let speed = self.motion.speed();
+        self.report = Report::of_pose(&self.local, speed, found.as_ref().map(|(spectrum, _)| spectrum));
+        match found {
+            Some((spectrum, rows)) => {
+                self.rightmost = Some(spectrum.rightmost());
+                (self.modes, self.extent) = (rows, Extent::All);
+            }
+            None => self.extent = Extent::SlowestAlone,
         }
     }
 
+    /// The pose as far as it is known, with the shape of a chosen mode.
+    fn serve(&mut self) -> Slice {
+        let mut replies = vec![self.reply(Update::Pose(Box::new(PoseAnswer {
+            report: self.report.clone(),
+            axial_forces: self.local.statics.cables.iter().map(axial_forces).collect(),
+            modes: self.modes.clone(),
+            extent: self.extent,
+        })))];
+        if self.choice.which != Which::Critical {
+            replies.extend(self.shape());
+        }
+        if matches!(self.stage, Stage::Prompt | Stage::Slowest(_)) {
+            self.stage = Stage::searching(self.limit);
+        }
+        replies
+    }
+
     fn mode(&self, speed: f64, eigenvalue: Complex<f64>) -> stability::Mode {
-        let polarisation = if self.choice.along_x { Polarisation::X } else { Polarisation::Y };
-        stability::mode(&self.local.vibration, speed, eigenvalue, polarisation)
+        stability::mode(&self.local.vibration, speed, eigenvalue, polarisation(self.choice))
     }
 
     /// The chosen mode's shape: the critical one at its speed, others at the scenario's.
@@ -248,13 +400,12 @@ impl Pose {
             let mode = self.mode(critical.speed, critical.eigenvalue);
             return Some(self.reply(Update::Shape(Box::new(ModeShape::new(&mode, critical.speed, true)))));
         }
-        let spectrum = self.spectrum.as_ref()?;
         let wanted = match self.choice.which {
-            Which::Critical => spectrum.rightmost(),
+            Which::Critical => self.rightmost?,
             Which::Near([re, im]) => Complex::new(re, im.abs()),
         };
         let distance = |l: &Complex<f64>| (l - wanted).norm_sqr();
-        let modes = spectrum.modes().map(|mode| mode.eigenvalue);
+        let modes = self.modes.iter().map(|row| Complex::new(row.eigenvalue[0], row.eigenvalue[1]));
         let nearest = modes.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let speed = self.motion.speed();
         Some(self.reply(Update::Shape(Box::new(ModeShape::new(&self.mode(speed, nearest), speed, false)))))
@@ -269,23 +420,37 @@ impl Pose {
     }
 
     /// What each parameter does to the critical speed that was found, or why that cannot be told.
-    fn sensitivities(&self) -> Result<Vec<SensitivityReport>, String> {
+    fn sensitivities(&self) -> Steps<Result<Vec<SensitivityReport>, String>> {
         let critical = match &self.outcome {
-            Some(Ok(Outcome::Found(critical))) => critical,
-            Some(Err(_)) => return Err("The critical speed is not known.".into()),
+            Some(Ok(Outcome::Found(critical))) => Ok(critical.clone()),
+            Some(Err(_)) => Err("The critical speed is not known.".into()),
             Some(Ok(Outcome::NoneUpTo(_))) | None => {
-                return Err(format!("There is no critical speed up to {} m/s.", self.limit));
+                Err(format!("There is no critical speed up to {} m/s.", self.limit))
             }
         };
-        let found = sensitivities(&self.robot, &self.motion, critical);
-        Ok(found.map_err(|reason| sentence(&reason.to_string()))?.iter().map(SensitivityReport::from).collect())
+        let (robot, motion) = (self.robot.clone(), self.motion);
+        Steps::new(async move {
+            let found = sensitivities_in_steps(&robot, &motion, &critical?).await;
+            Ok(found.map_err(|reason| sentence(&reason.to_string()))?.iter().map(SensitivityReport::from).collect())
+        })
     }
 
-    /// One slice of the search, of the curve or of what follows.
+    /// What comes once all modes are there, or cannot be computed.
+    fn curve(&mut self) -> Slice {
+        if let (Extent::All, Some(curve)) = (self.extent, self.curve.take()) {
+            self.stage = Stage::Curve { steps: curve.steps(self.local.clone(), self.effort), since: Instant::now() };
+            return Vec::new();
+        }
+        // Nor would the eigenvalues be found at other speeds.
+        self.stage = Stage::Sensitivities(self.sensitivities());
+        vec![self.reply(Update::Curve(Vec::new()))]
+    }
+
+    /// One slice of the search or of what follows.
     fn slice(&mut self) -> Slice {
         let begun = Instant::now();
         let mut replies = loop {
-            let replies = self.step();
+            let replies = self.step(begun);
             if !replies.is_empty() || begun.elapsed() >= SLICE || matches!(self.stage, Stage::Done) {
                 break replies;
             }
@@ -296,10 +461,10 @@ impl Pose {
         replies
     }
 
-    /// One eigenvalue problem of the search or of the curve, or all that follows.
-    fn step(&mut self) -> Slice {
+    /// One step of a slice that has `begun`.
+    fn step(&mut self, begun: Instant) -> Slice {
         match &mut self.stage {
-            Stage::Done => Vec::new(),
+            Stage::Done | Stage::Prompt | Stage::Slowest(_) => Vec::new(),
             Stage::Searching { search, .. } => {
                 // Where only the search fails, the pose with its eigenvalues stands, and so do curve and modes.
                 let outcome = match search.advance(&self.local.vibration) {
@@ -307,52 +472,50 @@ impl Pose {
                     Ok(Some(outcome)) => Ok(outcome),
                     Err(error) => Err(sentence(&error.to_string())),
                 };
-                let scan: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
-                let scanned = scan.last().map_or(0.0, |point| point[0]);
+                let points: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
+                let scanned = points.last().map_or(0.0, |point| point[0]);
                 let mut replies = vec![self.reply(Update::Critical(CriticalAnswer {
                     critical: outcome.as_ref().ok().and_then(CriticalReport::of),
                     failure: outcome.as_ref().err().cloned(),
                     searched_up_to: if outcome.is_ok() { self.limit } else { scanned },
                     elapsed_ms: 1e3 * self.submitted.elapsed().as_secs_f64(),
                 }))];
-                let end = match &outcome {
+                let to = match &outcome {
                     Ok(Outcome::Found(critical)) => CURVE_MARGIN * critical.speed.max(self.motion.speed()).max(scanned),
                     Ok(Outcome::NoneUpTo(limit)) => scanned.max(*limit),
                     Err(_) => CURVE_MARGIN * self.motion.speed().max(scanned),
                 };
+                self.curve = Some(Curve { points, from: scanned, to });
                 self.outcome = Some(outcome);
                 if self.choice.which == Which::Critical {
                     replies.extend(self.shape());
                 }
-                self.stage = if self.spectrum.is_some() {
-                    Stage::curve(scan, scanned, end, self.effort)
-                } else {
-                    // Nor would the eigenvalues be found at other speeds.
-                    replies.push(self.reply(Update::Curve(Vec::new())));
-                    Stage::Sensitivities
-                };
+                self.stage = Stage::All;
                 replies
             }
-            Stage::Curve { from, next, to, last, points, .. } => {
-                if *next <= *last && *to > *from {
-                    let speed = *from + (*to - *from) * f64::from(*next) / f64::from(*last);
-                    // The answer stands without a point of its curve.
-                    if let Ok(spectrum) = self.local.spectra.spectrum(&self.local.vibration, speed) {
-                        points.push([speed, spectrum.growth_rate()]);
-                    }
-                    *next += 1;
-                    return Vec::new();
+            Stage::All => {
+                if self.all.is_none() {
+                    return self.curve();
                 }
-                let points = std::mem::take(points);
-                self.stage = Stage::Sensitivities;
+                self.go_on_with_all(begun);
+                if self.all.is_none() { self.serve() } else { Vec::new() }
+            }
+            Stage::Curve { steps, .. } => {
+                let Some(points) = steps.advance() else { return Vec::new() };
+                self.stage = Stage::Sensitivities(self.sensitivities());
                 vec![self.reply(Update::Curve(points))]
             }
-            Stage::Sensitivities => {
+            Stage::Sensitivities(steps) => {
+                let Some(found) = steps.advance() else { return Vec::new() };
                 self.stage = Stage::Done;
-                vec![self.reply(Update::Sensitivities(self.sensitivities()))]
+                vec![self.reply(Update::Sensitivities(found))]
             }
         }
     }
+}
+
+fn polarisation(choice: ModeChoice) -> Polarisation {
+    if choice.along_x { Polarisation::X } else { Polarisation::Y }
 }
 
 /// Does a check; there is nothing to say where there is no such check.
@@ -395,7 +558,9 @@ mod tests {
         let Some(Update::Pose(pose)) = replies.into_iter().map(|reply| reply.update).next() else { panic!("no pose") };
         // The search's own matrices; the pose has been computed from the others.
         let waiting = engine.waiting.as_mut().expect("a pose");
-        waiting.local.vibration.chains[1].elements_mut()[2].elastic *= f64::NAN;
+        let mut local = Local::clone(&waiting.local);
+        local.vibration.chains[1].elements_mut()[2].elastic *= f64::NAN;
+        waiting.local = Arc::new(local);
         (pose.report, std::iter::from_fn(|| engine.work()).flatten().collect())
     }
 

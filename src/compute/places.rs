@@ -1,11 +1,13 @@
 //! The places of a wanted study: which, in which order, how hard, and the answer at each.
 
+use std::sync::Arc;
+
 use nalgebra::Complex;
 
 use crate::robot::{Robot, Vec2};
 use crate::scenario::Scenario;
 use crate::scenario::report::CriticalReport;
-use crate::stability::{ALLOWED_LIMIT, is_limit};
+use crate::stability::{ALLOWED_LIMIT, Steps, is_limit};
 use crate::study::{Answer, Asked, Directions, Grid, Line, Study, Verdict, campbell, compass};
 
 use super::protocol::{AskedChoice, DirectionsChoice, Missing, PlaceAnswer, StudyChoice, StudyJob, VerdictAnswer};
@@ -117,13 +119,18 @@ impl Places {
         directions * size * size
     }
 
-    /// The answer at one place.
-    pub fn answer(&self, place: usize) -> PlaceAnswer {
+    /// The answer at one place, step by step.
+    pub fn answer(self: &Arc<Self>, place: usize) -> Steps<PlaceAnswer> {
+        let places = Arc::clone(self);
+        Steps::new(async move { places.answer_in_steps(place).await })
+    }
+
+    async fn answer_in_steps(&self, place: usize) -> PlaceAnswer {
         match &self.work {
-            Work::Study { robot, study } => (&study.answer(robot, place)).into(),
+            Work::Study { robot, study } => (&study.answer_in_steps(robot, place).await).into(),
             Work::Join(spectra) => {
                 let point = |&(speed, value): &(f64, Complex<f64>)| (speed, [value.re, value.im]);
-                let tracks = campbell::track(spectra);
+                let tracks = campbell::track_in_steps(spectra).await;
                 PlaceAnswer::Modes(Ok(tracks.iter().map(|track| track.points.iter().map(point).collect()).collect()))
             }
         }

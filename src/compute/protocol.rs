@@ -66,7 +66,8 @@ pub struct Reply {
 /// What became known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Update {
-    /// The pose and its spectrum at the scenario's speed; the critical speed is still to come.
+    /// The pose and its spectrum at the scenario's speed; the critical speed is still to come. Of a large robot it comes twice:
+    /// with the slowest modes at once, and with all of them after the critical speed.
     Pose(Box<PoseAnswer>),
     /// The pose has no answer. The analysis is complete.
     Failed(Box<Failed>),
@@ -95,6 +96,19 @@ pub struct PoseAnswer {
     pub axial_forces: Vec<Vec<f64>>,
     /// The modes in rising order of frequency.
     pub modes: Vec<ModeRow>,
+    /// Which of them.
+    pub extent: Extent,
+}
+
+/// Which modes of a pose are known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Extent {
+    /// All, or none, where they could not be computed.
+    All,
+    /// The slowest so far; the others follow, in another answer for the pose.
+    SlowestSoFar,
+    /// The slowest alone: the others could not be computed.
+    SlowestAlone,
 }
 
 /// A pose without an answer.
@@ -470,6 +484,8 @@ pub enum Task {
     },
     /// Places to answer.
     Batch(Batch),
+    /// The study of this topic is not wanted any more: its batches end at once.
+    Forget(Topic),
 }
 
 /// Places to answer.

@@ -6,8 +6,8 @@ use std::time::Duration;
 const PAUSE: Duration = Duration::from_secs(1);
 /// One that has been silent for so long is lost, if its robot is small.
 const PATIENCE: Duration = Duration::from_secs(10);
-/// So much longer for the largest robot, of 8 cables with 200 elements. Its spectrum is the longest step between two
-/// looks at the inbox: 10 to 30 s on a desktop computer, growing with the square of the number of elements.
+/// So much longer for the largest robot, of 8 cables with 200 elements. Between two looks at the inbox there are 8 ms of
+/// work, but where the dense solver has to be asked: its time grows with the robot's size.
 const LARGEST_PATIENCE: Duration = Duration::from_mins(5);
 const LARGEST: f64 = 1600.0;
 /// One that has never answered may still be on its way over a slow network.

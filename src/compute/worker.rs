@@ -10,7 +10,6 @@ use web_sys::{DedicatedWorkerGlobalScope, MessageChannel, MessageEvent};
 
 use super::Engine;
 use super::link::READY;
-use super::places::Places;
 use super::pool::Bench;
 use super::protocol::{Incoming, Outgoing};
 
@@ -24,39 +23,39 @@ pub fn run_worker() -> Result<(), JsValue> {
     // A message to itself lets the worker take in newer requests between two slices.
     let again = MessageChannel::new()?;
     let at_work = Rc::new(Cell::new(false));
+    let bench = Rc::new(RefCell::new(Bench::default()));
     let on_slice = {
-        let (engine, scope, again, at_work) = (engine.clone(), scope.clone(), again.clone(), at_work.clone());
+        let (engine, bench, scope) = (engine.clone(), bench.clone(), scope.clone());
+        let (again, at_work) = (again.clone(), at_work.clone());
         Closure::<dyn FnMut()>::new(move || {
-            let Some(replies) = engine.borrow_mut().work() else {
+            let replies = engine.borrow_mut().work();
+            let answered = if replies.is_none() { bench.borrow_mut().work() } else { None };
+            if replies.is_none() && answered.is_none() {
                 at_work.set(false);
                 return;
-            };
-            for reply in replies {
+            }
+            for reply in replies.into_iter().flatten() {
                 send(&scope, &Outgoing::Reply(reply));
+            }
+            if let Some(batch) = answered.flatten() {
+                send(&scope, &Outgoing::Batch(batch));
             }
             let _ = again.port2().post_message(&JsValue::NULL);
         })
     };
     again.port1().set_onmessage(Some(on_slice.as_ref().unchecked_ref()));
     on_slice.forget();
-    let mut bench = Bench::default();
     let outbox = scope.clone();
     let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
         let bytes = event.data().dyn_into::<Uint8Array>().map(|array| array.to_vec()).unwrap_or_default();
         match postcard::from_bytes(&bytes) {
-            Ok(Incoming::Request(request)) => {
-                engine.borrow_mut().submit(request);
-                if !at_work.replace(true) {
-                    let _ = again.port2().post_message(&JsValue::NULL);
-                }
-            }
-            Ok(Incoming::AreYouThere) => send(&outbox, &Outgoing::Alive),
-            Ok(Incoming::Task(task)) => {
-                if let Some(batch) = bench.serve(&task, Places::answer) {
-                    send(&outbox, &Outgoing::Batch(batch));
-                }
-            }
-            Err(_) => {}
+            Ok(Incoming::Request(request)) => engine.borrow_mut().submit(request),
+            Ok(Incoming::Task(task)) => bench.borrow_mut().submit(task),
+            Ok(Incoming::AreYouThere) => return send(&outbox, &Outgoing::Alive),
+            Err(_) => return,
+        }
+        if !at_work.replace(true) {
+            let _ = again.port2().post_message(&JsValue::NULL);
         }
     });
     scope.set_onmessage(Some(on_message.as_ref().unchecked_ref()));

@@ -250,11 +250,8 @@ impl Report {
     /// completes it. Where the eigenvalues could not be computed all else stays, and stability is told by their count.
     pub fn of_pose(local: &Local, speed: f64, spectrum: Option<&Spectrum>) -> Self {
         let Some(spectrum) = spectrum else {
-            return Self {
-                reason: Some(sentence(&NotConverged.to_string())),
-                stable: unstable_eigenvalues(&local.vibration, speed).map(|count| count == 0),
-                ..Self::at_rest(local, speed)
-            };
+            let reason = Some(sentence(&NotConverged.to_string()));
+            return Self { reason, ..Self::without_eigenvalues(local, speed) };
         };
         Self {
             eigenvalues: spectrum.eigenvalues().map(|Complex { re, im }| [re, im]).collect(),
@@ -262,6 +259,12 @@ impl Report {
             stable: Some(spectrum.is_stable()),
             ..Self::at_rest(local, speed)
         }
+    }
+
+    /// The report of a pose whose eigenvalues are still being computed: whether it is stable is told by their count.
+    pub fn without_eigenvalues(local: &Local, speed: f64) -> Self {
+        let stable = unstable_eigenvalues(&local.vibration, speed).map(|count| count == 0);
+        Self { stable, ..Self::at_rest(local, speed) }
     }
 
     /// The report of a pose whose eigenvalues at `speed` (m/s) are not known.

@@ -11,7 +11,8 @@ use super::characteristic::Characteristic;
 use super::undamped;
 use crate::mechanics::Vibration;
 use crate::stability::spectrum::Rounding;
-use crate::stability::{Eigenproblem, NotConverged, Solver, Spectrum};
+use crate::stability::steps::{finish, step as step_ended};
+use crate::stability::{Eigenproblem, ModeValue, NotConverged, Solver, Spectrum};
 
 type C64 = Complex<f64>;
 
@@ -37,6 +38,11 @@ const SPREAD: f64 = 0.1;
 const PATIENCE: usize = 3;
 /// The dense solver is not asked about more degrees of freedom than these: it would take minutes.
 const LARGEST_DENSE: usize = 700;
+/// Sweeps over the slowest estimates where they are wanted first, so many more of them, and the part of itself to which a real
+/// one is real and two are the same.
+const SLOWEST_SWEEPS: usize = 40;
+const BESIDE: usize = 8;
+const REAL: f64 = 1e-7;
 /// The sums over the eigenvalues must agree with what they are known to be to this part of their terms' sum.
 const AGREEMENT: f64 = 1e-7;
 
@@ -107,8 +113,16 @@ impl Spectra {
     /// # Errors
     /// [`NotConverged`] where neither solver has converged.
     pub fn spectrum(&mut self, vibration: &Vibration, speed: f64) -> Result<Spectrum, NotConverged> {
+        finish(self.spectrum_in_steps(vibration, speed))
+    }
+
+    /// The same in [steps](super::steps) of about one evaluation of det Q; only the dense solver is one step.
+    ///
+    /// # Errors
+    /// As [`Self::spectrum`].
+    pub async fn spectrum_in_steps(&mut self, vibration: &Vibration, speed: f64) -> Result<Spectrum, NotConverged> {
         if self.failures < PATIENCE {
-            if let Some(spectrum) = self.iterate(speed) {
+            if let Some(spectrum) = self.iterate_in_steps(speed).await {
                 return Ok(spectrum);
             }
             self.failures += 1;
@@ -120,7 +134,8 @@ impl Spectra {
         // The dense solver knows slow modes to a part of the fastest one only. Begun from there the iteration may converge,
         // to all digits.
         let near = Estimates { values: dense.modes().map(|mode| mode.eigenvalue).collect(), paired: true };
-        if let Some(spectrum) = self.solve(near.unpaired(), speed).and_then(|found| self.accept(found, speed)) {
+        let apart = near.unpaired().await;
+        if let Some(spectrum) = self.solve(apart, speed).await.and_then(|found| self.accept(found, speed)) {
             return Ok(spectrum);
         }
         // Newton's step tells how far the dense solver is off where it decides stability.
@@ -131,13 +146,67 @@ impl Spectra {
     /// The same without the dense solver; `None` where the iteration does not converge to as many eigenvalues as
     /// there are.
     pub fn iterate(&mut self, speed: f64) -> Option<Spectrum> {
-        let found = self.last.take().and_then(|near| self.solve(near, speed));
-        let found = found.or_else(|| self.solve(self.at_rest(), speed)).or_else(|| {
-            let at_rest = self.at_rest();
-            let apart = at_rest.paired.then(|| at_rest.unpaired())?;
-            self.solve(apart, speed)
-        })?;
-        self.accept(found, speed)
+        finish(self.iterate_in_steps(speed))
+    }
+
+    async fn iterate_in_steps(&mut self, speed: f64) -> Option<Spectrum> {
+        if let Some(near) = self.last.take()
+            && let Some(found) = self.solve(near, speed).await
+        {
+            return self.accept(found, speed);
+        }
+        let at_rest = self.at_rest().await;
+        let apart = at_rest.paired.then(|| at_rest.clone());
+        let mut found = self.solve(at_rest, speed).await;
+        if let (None, Some(at_rest)) = (&found, apart) {
+            let apart = at_rest.unpaired().await;
+            found = self.solve(apart, speed).await;
+        }
+        self.accept(found?, speed)
+    }
+
+    /// The slowest modes at `speed` (m/s), those with the smallest |λ|, about `count` of them, in rising order of frequency:
+    /// by the same iteration for their estimates alone, in steps. Each is an eigenvalue to all its digits; that none of the
+    /// slowest is missing only [`Self::spectrum`] knows.
+    pub async fn slowest_in_steps(&self, speed: f64, count: usize) -> Vec<ModeValue> {
+        let mut estimates = self.at_rest().await;
+        let mut slowest: Vec<usize> = (0..estimates.values.len()).collect();
+        slowest.sort_by(|&a, &b| estimates.values[a].norm_sqr().total_cmp(&estimates.values[b].norm_sqr()));
+        // A few more, since they change places; of pairs that are not kept together both.
+        let each = if estimates.paired { 1 } else { 2 };
+        slowest.truncate(each * (count + BESIDE));
+        let mut found: Vec<C64> = Vec::new();
+        for _ in 0..SLOWEST_SWEEPS {
+            let mut moving = Vec::new();
+            for &j in &slowest {
+                let z = estimates.values[j];
+                if let Some([_, mut step]) = self.step(&estimates, j, z, speed) {
+                    let (size, largest) = (step.norm(), LARGEST_STEP * z.norm());
+                    if size > largest {
+                        step *= largest / size;
+                    }
+                    estimates.values[j] = z - step;
+                    if size <= CONVERGED * z.norm() {
+                        found.push(estimates.values[j]);
+                    } else {
+                        moving.push(j);
+                    }
+                }
+                step_ended().await;
+            }
+            slowest = moving;
+        }
+        found.sort_by(|a, b| a.norm_sqr().total_cmp(&b.norm_sqr()));
+        for value in &mut found {
+            if value.im.abs() <= REAL * value.norm() {
+                value.im = 0.0;
+            }
+        }
+        found.dedup_by(|a, b| (*a - *b).norm() <= REAL * a.norm());
+        found.retain(|value| value.im >= 0.0);
+        found.truncate(count);
+        found.sort_by(|a, b| a.im.total_cmp(&b.im).then(a.re.total_cmp(&b.re)));
+        found.into_iter().map(|eigenvalue| ModeValue { eigenvalue, multiplicity: self.multiplicity }).collect()
     }
 
     /// The spectrum of all eigenvalues and what is known of their rounding; the next one begins with it.
@@ -148,7 +217,7 @@ impl Spectra {
     }
 
     /// About the eigenvalues at rest, in pairs where no mode is overdamped.
-    fn at_rest(&self) -> Estimates {
+    async fn at_rest(&self) -> Estimates {
         let mut values = Vec::with_capacity(2 * self.squares.len());
         let mut paired = true;
         for square in &self.squares {
@@ -164,11 +233,11 @@ impl Spectra {
             }
         }
         let estimates = Estimates { values, paired: true };
-        if paired { estimates } else { estimates.unpaired() }
+        if paired { estimates } else { estimates.unpaired().await }
     }
 
     /// Iterates from `estimates` to the eigenvalues at `speed`, and to which part of itself each is then known.
-    fn solve(&self, mut estimates: Estimates, speed: f64) -> Option<(Estimates, f64)> {
+    async fn solve(&self, mut estimates: Estimates, speed: f64) -> Option<(Estimates, f64)> {
         let count = estimates.values.len();
         let mut converged = vec![false; count];
         // Newton's steps without the other estimates: how far the next eigenvalue may be.
@@ -197,6 +266,7 @@ impl Spectra {
                     step *= largest / step.norm();
                 }
                 estimates.values[j] = z - step;
+                step_ended().await;
             }
             let all = converged.iter().all(|&done| done);
             if all && whole {
@@ -213,13 +283,18 @@ impl Spectra {
             whole = all;
         }
         // Where two estimates have come to one eigenvalue, they are nearer to each other than to it.
-        let same = |(j, z): (usize, &C64)| newton[j] > (CONVERGED * z.norm()).max(0.5 * estimates.gap(j));
-        if largest_step > STAGNATED || estimates.values.iter().enumerate().any(same) {
+        if largest_step > STAGNATED {
             return None;
         }
-        let estimates = estimates.symmetric(largest_step.max(CONVERGED))?;
+        for (j, z) in estimates.values.iter().enumerate() {
+            if newton[j] > (CONVERGED * z.norm()).max(0.5 * estimates.gap(j)) {
+                return None;
+            }
+            step_ended().await;
+        }
+        let estimates = estimates.symmetric(largest_step.max(CONVERGED)).await?;
         let error = if largest_step > CONVERGED { largest_step } else { ITERATED };
-        self.are_all(&estimates, speed).then_some((estimates, error))
+        self.are_all(&estimates, speed).await.then_some((estimates, error))
     }
 
     /// The step of the j-th estimate from `z`: without regard to the others, and with it. `None` where it is not finite.
@@ -231,7 +306,7 @@ impl Spectra {
 
     /// Whether the estimates are all eigenvalues: by their sum, which the largest ones make, and at a few places by the
     /// sum of 1/(λ − λⱼ).
-    fn are_all(&self, estimates: &Estimates, speed: f64) -> bool {
+    async fn are_all(&self, estimates: &Estimates, speed: f64) -> bool {
         let all = estimates.all();
         if all.len() != 2 * self.squares.len() {
             return false;
@@ -248,6 +323,7 @@ impl Spectra {
                 agree &= (sum - self.function.at(lambda, speed).by_lambda).norm() <= AGREEMENT * size;
             }
             place *= 2.0;
+            step_ended().await;
         }
         agree
     }
@@ -279,7 +355,7 @@ impl Estimates {
     }
 
     /// The same as exact pairs and real numbers; `None` where they are not that to about a part of `step`.
-    fn symmetric(mut self, step: f64) -> Option<Self> {
+    async fn symmetric(mut self, step: f64) -> Option<Self> {
         if self.paired {
             return Some(self);
         }
@@ -300,6 +376,7 @@ impl Estimates {
                 _ if gap(j) <= tolerance => self.values[j].im = 0.0,
                 _ => return None,
             }
+            step_ended().await;
         }
         Some(self)
     }
@@ -313,7 +390,7 @@ impl Estimates {
     }
 
     /// The same, each by itself and a little off its place.
-    fn unpaired(&self) -> Self {
+    async fn unpaired(&self) -> Self {
         let mut values = Vec::with_capacity(2 * self.values.len());
         for &value in &self.values {
             values.push(value);
@@ -322,7 +399,11 @@ impl Estimates {
             }
         }
         let values = Self { values, paired: false };
-        let gaps: Vec<f64> = (0..values.values.len()).map(|j| values.gap(j)).collect();
+        let mut gaps = Vec::with_capacity(values.values.len());
+        for j in 0..values.values.len() {
+            gaps.push(values.gap(j));
+            step_ended().await;
+        }
         let mut values = values.values;
         for ((j, value), gap) in values.iter_mut().enumerate().zip(gaps) {
             // A Weyl sequence: neither symmetric nor periodic.
@@ -364,19 +445,19 @@ mod tests {
         let relative = spectrum.rounding(C64::new(3.0, 4.0)) / 5.0;
         assert!((relative / ITERATED - 1.0).abs() < 1e-12, "{relative}");
         let found = spectra.last.take().unwrap();
-        assert!(found.paired && spectra.are_all(&found, 5.0));
-        assert!(!spectra.are_all(&found, 5.01), "at another speed");
+        assert!(found.paired && finish(spectra.are_all(&found, 5.0)));
+        assert!(!finish(spectra.are_all(&found, 5.01)), "at another speed");
         for j in 0..found.values.len() {
             let mut wrong = found.clone();
             wrong.values[j] *= 1.0 + 1e-4;
-            assert!(!spectra.are_all(&wrong, 5.0), "{} is off", found.values[j]);
+            assert!(!finish(spectra.are_all(&wrong, 5.0)), "{} is off", found.values[j]);
             let mut wrong = found.clone();
             wrong.values[j] = found.values[(j + 1) % found.values.len()];
-            assert!(!spectra.are_all(&wrong, 5.0), "{} is missing", found.values[j]);
+            assert!(!finish(spectra.are_all(&wrong, 5.0)), "{} is missing", found.values[j]);
         }
         let mut wrong = found.clone();
         wrong.values.pop();
-        assert!(!spectra.are_all(&wrong, 5.0), "one is missing");
+        assert!(!finish(spectra.are_all(&wrong, 5.0)), "one is missing");
     }
 
     /// After too many failures the dense solver answers, and the iteration goes on from there.
@@ -394,7 +475,7 @@ mod tests {
     fn estimates_at_rest_are_the_roots_for_the_estimated_frequencies() {
         for beta in [0.002, 0.5] {
             let spectra = Spectra { beta, ..spectra() };
-            let Estimates { values, paired } = spectra.at_rest();
+            let Estimates { values, paired } = finish(spectra.at_rest());
             assert_eq!(paired, beta < 0.1);
             let (sum, product) = (spectra.alpha, spectra.beta);
             let all = Estimates { values, paired }.all();
@@ -407,7 +488,8 @@ mod tests {
                 }
             }
         }
-        let heavy = Spectra { alpha: 0.0, beta: 2.0, squares: vec![100.0], ..spectra() }.at_rest();
+        let heavy = Spectra { alpha: 0.0, beta: 2.0, squares: vec![100.0], ..spectra() };
+        let heavy = finish(heavy.at_rest());
         // Each is moved a little off its place, by a part of the distance between them.
         let [a, b] = heavy.values[..] else { panic!("{heavy:?}") };
         let gap = 198.997_487_4;
@@ -433,19 +515,19 @@ mod tests {
     #[test]
     fn nearly_pairs_become_pairs_and_nearly_real_numbers_real() {
         let nearly = |off: f64| estimates(&[[-1.0, 2.0 + off], [-30.0, off], [-1.0 + off, -2.0], [-8.0, 0.0]], false);
-        let found = nearly(1e-7).symmetric(1e-7).unwrap().values;
+        let found = finish(nearly(1e-7).symmetric(1e-7)).unwrap().values;
         assert_eq!(found[0], found[2].conj());
         assert!(found[1].im == 0.0 && found[3].im == 0.0, "{found:?}");
         assert!((found[0] - C64::new(-1.0, 2.0)).norm() < 2e-7 && (found[1].re + 30.0).abs() < 2e-7);
-        assert!(nearly(1e-3).symmetric(1e-7).is_none());
+        assert!(finish(nearly(1e-3).symmetric(1e-7)).is_none());
         // A real number is within twice the step of itself, however large the rest is.
-        assert!(estimates(&[[-30.0, 7e-6]], false).symmetric(1e-7).is_none());
+        assert!(finish(estimates(&[[-30.0, 7e-6]], false).symmetric(1e-7)).is_none());
     }
 
     /// Off their places by a part of the distance to the nearest other one, each in another direction.
     #[test]
     fn estimates_apart_are_near_their_places() {
-        let apart = estimates(&[[-1.0, 2.0], [-30.0, 0.0], [-3.0, 9.0]], true).unpaired().values;
+        let apart = finish(estimates(&[[-1.0, 2.0], [-30.0, 0.0], [-3.0, 9.0]], true).unpaired()).values;
         let places =
             [[-1.0, 2.0], [-1.0, -2.0], [-30.0, 0.0], [-3.0, 9.0], [-3.0, -9.0]].map(|[re, im]| C64::new(re, im));
         assert_eq!(apart.len(), places.len());
@@ -455,5 +537,47 @@ mod tests {
             let gap = others.fold(f64::INFINITY, f64::min);
             assert!((1e-4 * gap..1.2 * SPREAD * gap).contains(&off.norm()), "{off} of {gap}");
         }
+    }
+
+    /// They are the slowest of all, to the digits of both, for light and heavy damping.
+    #[test]
+    fn the_slowest_modes_are_those_of_the_whole_spectrum() {
+        for beta in [0.002, 0.5] {
+            let mut spectra = Spectra { beta, ..spectra() };
+            let local = local();
+            let mut vibration = local.vibration.clone();
+            vibration.damping.beta = beta;
+            spectra = Spectra { damping: Spectra::new(&vibration).unwrap().damping, ..spectra };
+            spectra.function = Characteristic::new(&vibration);
+            let mut all: Vec<C64> = spectra.spectrum(&vibration, 5.0).unwrap().modes().map(|m| m.eigenvalue).collect();
+            all.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
+            let slowest = finish(spectra.slowest_in_steps(5.0, 12));
+            assert_eq!(slowest.len(), 12, "{slowest:?}");
+            assert!(slowest.windows(2).all(|pair| pair[0].eigenvalue.im <= pair[1].eigenvalue.im), "{slowest:?}");
+            for value in slowest {
+                let off = |other: &C64| (other - value.eigenvalue).norm();
+                let nearest = all[..12].iter().map(off).fold(f64::INFINITY, f64::min);
+                assert!(nearest < 1e-8 * value.eigenvalue.norm(), "β = {beta}: {value:?} is off by {nearest}");
+            }
+        }
+    }
+
+    /// The same work in the same order, however it is cut: equal to the last bit.
+    #[test]
+    fn a_spectrum_in_steps_is_the_spectrum() {
+        let local = local();
+        let expected = spectra().spectrum(&local.vibration, 5.0).unwrap();
+        let mut spectra = spectra();
+        let mut steps =
+            crate::stability::Steps::new(async move { spectra.spectrum_in_steps(&local.vibration, 5.0).await });
+        let mut count = 0;
+        let found = loop {
+            match steps.advance() {
+                None => count += 1,
+                Some(found) => break found.unwrap(),
+            }
+        };
+        assert_eq!(found, expected);
+        assert!(count >= 74 * 3, "{count} steps");
     }
 }

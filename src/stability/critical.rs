@@ -202,7 +202,7 @@ impl CriticalSearch {
         }
     }
 
-    /// Searches the next strip of speeds by structure, or looks at the scan's next speed, of the same `vibration`; `None`
+    /// Searches a part of the next strip of speeds by structure, or looks at the scan's next speed, of the same `vibration`; `None`
     /// while the search goes on.
     ///
     /// # Errors

@@ -101,6 +101,7 @@ impl FirstCrossing {
         let start = bounds.lowest_speed(limit).max(start).min(limit);
         let plane = Plane {
             known: HashMap::new(),
+            strip: None,
             trend: Trend::default(),
             zeros: Vec::new(),
             evaluations: 0,
@@ -121,7 +122,7 @@ impl FirstCrossing {
         self.from
     }
 
-    /// Searches the next strip; `None` where nothing crosses in it.
+    /// Searches the next cells of a strip; `None` where nothing crosses in it, or not all of it has been searched.
     ///
     /// # Errors
     /// [`Doubt`] where that cannot be told.
@@ -138,7 +139,11 @@ impl FirstCrossing {
         let height = (LARGEST_MOVE * plane.counter.bounds.speed_step(top, from))
             .clamp(least, LARGEST_STRIP.max(2.0 * STRIP_PART * from));
         let to = limit.min(from + height);
-        let searched = plane.search_strip(from, to);
+        let searched = match plane.search_strip(from, to) {
+            Ok(false) => return Ok(None),
+            Ok(true) => Ok(()),
+            Err(unsettled) => Err(unsettled),
+        };
         let first = plane.first_from(from).copied().filter(|zero| zero.speed <= to);
         let missed = plane.zeros.iter().any(|zero| zero.speed > 0.0 && zero.speed < from);
         let found = match (searched, first) {
@@ -195,6 +200,14 @@ impl Zero {
     }
 }
 
+/// How far the search of a strip has come: up to a frequency, where its last corners are, of the highest one.
+#[derive(Clone, Copy, Debug)]
+struct Strip {
+    omega: f64,
+    top: f64,
+    left: [Corner; 2],
+}
+
 /// Four corners, the lower two first.
 #[derive(Clone, Copy, Debug)]
 struct Cell {
@@ -235,6 +248,8 @@ struct Plane {
     counter: Counter,
     /// The corners of the strip, which neighbouring cells share, by the bits of ω and v.
     known: HashMap<[u64; 2], Corner>,
+    /// The strip that is being searched.
+    strip: Option<Strip>,
     trend: Trend,
     zeros: Vec<Zero>,
     evaluations: usize,
@@ -252,7 +267,25 @@ impl Plane {
     }
 
     /// Finds all zeros below the first one between two speeds.
-    fn search_strip(&mut self, from: f64, to: f64) -> Result<(), Unsettled> {
+    /// One column of cells of it at a time: whether these were all.
+    fn search_strip(&mut self, from: f64, to: f64) -> Result<bool, Unsettled> {
+        let mut strip = match self.strip.take() {
+            Some(strip) => strip,
+            None => self.begin_strip(from, to),
+        };
+        if strip.omega >= strip.top {
+            return Ok(true);
+        }
+        let bounds = &self.counter.bounds;
+        strip.omega += bounds.frequency_step(strip.omega, LARGEST_WIDTH).max(bounds.decay(strip.omega));
+        let (left, right) = (strip.left, [self.corner(strip.omega, from), self.corner(strip.omega, to)]);
+        self.search_cell(from, &mut Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] })?;
+        strip.left = right;
+        self.strip = Some(strip);
+        Ok(false)
+    }
+
+    fn begin_strip(&mut self, from: f64, to: f64) -> Strip {
         self.evaluations = 0;
         self.cell[1] = to - from;
         let mut top = self.counter.bounds.highest_frequency(to);
@@ -262,15 +295,7 @@ impl Plane {
             top = self.counter.bounds.highest_frequency(first.speed);
         }
         self.eligible = self.counter.bounds.highest_frequency(from);
-        let mut left = [self.corner(0.0, from), self.corner(0.0, to)];
-        let mut omega = 0.0;
-        while omega < top {
-            omega += self.counter.bounds.frequency_step(omega, LARGEST_WIDTH).max(self.counter.bounds.decay(omega));
-            let right = [self.corner(omega, from), self.corner(omega, to)];
-            self.search_cell(from, &mut Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] })?;
-            left = right;
-        }
-        Ok(())
+        Strip { omega: 0.0, top, left: [self.corner(0.0, from), self.corner(0.0, to)] }
     }
 
     /// Takes a divergence between two speeds in that shows by the sign of det (K + v² D), so that nothing above it has to
@@ -572,6 +597,7 @@ mod tests {
                 Axis::new(Characteristic::new(&local.vibration)),
             ),
             known: HashMap::new(),
+            strip: None,
             trend: Trend::default(),
             zeros: Vec::new(),
             evaluations: 0,

@@ -13,6 +13,7 @@ mod modes;
 mod rest;
 mod sensitivity;
 mod spectrum;
+pub mod steps;
 mod ties;
 mod undamped;
 
@@ -28,6 +29,7 @@ pub use dense::Eigenproblem;
 pub use modes::{Mode, Polarisation, mode};
 pub use sensitivity::{Crossing, NoSensitivity, Shift};
 pub use spectrum::{ModeValue, Solver, Spectrum};
+pub use steps::Steps;
 pub use ties::{TIE_OF_SHARES, TIE_OF_SPEEDS, first_largest, first_lowest, is_lower};
 
 /// An eigenvalue iteration did not converge.

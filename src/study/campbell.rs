@@ -7,6 +7,8 @@
 
 use nalgebra::Complex;
 
+use crate::stability::steps::{finish, step};
+
 type C64 = Complex<f64>;
 
 /// A mode's next eigenvalue is within this part of its size of what was predicted …
@@ -28,6 +30,11 @@ pub struct Track {
 /// tracks come in the order in which they begin, at one speed in the order of its spectrum. Nothing is made up: a
 /// track ends where no eigenvalue goes on with it, and a speed whose spectrum is not known is best left out.
 pub fn track(spectra: &[(f64, Vec<Complex<f64>>)]) -> Vec<Track> {
+    finish(track_in_steps(spectra))
+}
+
+/// The same in [steps](crate::stability::steps) of one speed.
+pub async fn track_in_steps(spectra: &[(f64, Vec<Complex<f64>>)]) -> Vec<Track> {
     let mut tracks: Vec<Track> = Vec::new();
     // Those that reach the speed before.
     let mut active: Vec<usize> = Vec::new();
@@ -50,6 +57,7 @@ pub fn track(spectra: &[(f64, Vec<Complex<f64>>)]) -> Vec<Track> {
             tracks[i].points.push((*speed, value));
             active.push(i);
         }
+        step().await;
     }
     tracks
 }

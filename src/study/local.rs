@@ -2,6 +2,7 @@
 
 use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration, WaveLimit};
 use crate::robot::{Motion, Robot, Vec2};
+use crate::stability::steps::{finish, step};
 use crate::stability::{CriticalSearch, NotConverged, Outcome, Spectra, Spectrum};
 
 /// Statics, motion and the small-vibration problem at one pose.
@@ -58,7 +59,15 @@ impl Local {
     /// # Errors
     /// [`NotConverged`] where the eigenvalue problem could not be solved.
     pub fn spectrum(&self, speed: f64) -> Result<Spectrum, NotConverged> {
-        self.spectra.clone().spectrum(&self.vibration, speed)
+        finish(self.spectrum_in_steps(speed))
+    }
+
+    /// The same in [steps](crate::stability::steps).
+    ///
+    /// # Errors
+    /// As [`Self::spectrum`].
+    pub async fn spectrum_in_steps(&self, speed: f64) -> Result<Spectrum, NotConverged> {
+        self.spectra.clone().spectrum_in_steps(&self.vibration, speed).await
     }
 
     /// The critical speed, searched up to `limit` (m/s).
@@ -66,6 +75,20 @@ impl Local {
     /// # Errors
     /// [`NotConverged`] where an eigenvalue problem could not be solved.
     pub fn critical_speed(&self, limit: f64) -> Result<Outcome, NotConverged> {
-        CriticalSearch::new(limit).run(&self.vibration)
+        finish(self.critical_speed_in_steps(limit))
+    }
+
+    /// The same in [steps](crate::stability::steps).
+    ///
+    /// # Errors
+    /// As [`Self::critical_speed`].
+    pub async fn critical_speed_in_steps(&self, limit: f64) -> Result<Outcome, NotConverged> {
+        let mut search = CriticalSearch::new(limit);
+        loop {
+            if let Some(outcome) = search.advance(&self.vibration)? {
+                return Ok(outcome);
+            }
+            step().await;
+        }
     }
 }

@@ -34,6 +34,6 @@ mod verdict;
 pub use crate::mechanics::Knob;
 pub use grid::{Grid, Line, evenly, workspace};
 pub use local::Local;
-pub use sensitivity::{Sensitivity, sensitivities};
+pub use sensitivity::{Sensitivity, sensitivities, sensitivities_in_steps};
 pub use studies::{Answer, Asked, Study};
 pub use verdict::{Directions, NoAnswer, Status, Verdict, compass, verdict};

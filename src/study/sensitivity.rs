@@ -2,6 +2,7 @@
 
 use crate::mechanics::{self, Knob, Vibration};
 use crate::robot::{Damping, Motion, Robot};
+use crate::stability::steps::{finish, step};
 use crate::stability::{Critical, Crossing, Kind, NoSensitivity};
 
 /// What one parameter does to the crossing, as relative derivatives: percent per percent.
@@ -25,10 +26,23 @@ pub struct Sensitivity {
 /// # Errors
 /// [`NoSensitivity`], where the critical speed is 0 or has no derivative.
 pub fn sensitivities(robot: &Robot, motion: &Motion, critical: &Critical) -> Result<Vec<Sensitivity>, NoSensitivity> {
+    finish(sensitivities_in_steps(robot, motion, critical))
+}
+
+/// The same in [steps](crate::stability::steps) of one parameter.
+///
+/// # Errors
+/// As [`sensitivities`].
+pub async fn sensitivities_in_steps(
+    robot: &Robot,
+    motion: &Motion,
+    critical: &Critical,
+) -> Result<Vec<Sensitivity>, NoSensitivity> {
     let out_of_range = NoSensitivity::OutOfRange;
     let statics = mechanics::solve(robot, motion.position()).map_err(|_| out_of_range)?;
     let rates = mechanics::length_rates(robot, &statics, motion.direction()).ok_or(out_of_range)?;
     let vibration = Vibration::new(robot, &statics, &rates).ok_or(out_of_range)?;
+    step().await;
     let crossing = Crossing::new(&vibration, critical)?;
     let damping = robot.damping;
     let sensitivity = |knob: Knob| {
@@ -46,5 +60,10 @@ pub fn sensitivities(robot: &Robot, motion: &Motion, critical: &Critical) -> Res
         let finite = speed.is_finite() && frequency.is_none_or(f64::is_finite);
         if finite { Ok(Sensitivity { knob, speed, frequency }) } else { Err(out_of_range) }
     };
-    Knob::all(robot).into_iter().map(sensitivity).collect()
+    let mut found = Vec::new();
+    for knob in Knob::all(robot) {
+        found.push(sensitivity(knob)?);
+        step().await;
+    }
+    Ok(found)
 }

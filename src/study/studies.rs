@@ -4,8 +4,10 @@
 use nalgebra::Complex;
 
 use crate::robot::{Motion, Robot, RobotSpec, Vec2};
+use crate::stability::steps::finish;
 use crate::study::grid::coarse_first_in_a_row;
-use crate::study::{Directions, Grid, Line, Local, NoAnswer, Verdict, compass, evenly, verdict};
+use crate::study::verdict::verdict_in_steps;
+use crate::study::{Directions, Grid, Line, Local, NoAnswer, Verdict, compass, evenly};
 
 /// What a map shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,23 +132,28 @@ impl Study {
     /// Nothing here is an error: a place without a pose (an infeasible one, a position or direction that is not
     /// finite, no direction) is infeasible, and of a mesh that is not allowed nothing is known.
     pub fn answer(&self, robot: &Robot, index: usize) -> Answer {
+        finish(self.answer_in_steps(robot, index))
+    }
+
+    /// The same in [steps](crate::stability::steps).
+    pub async fn answer_in_steps(&self, robot: &Robot, index: usize) -> Answer {
         match self {
-            Self::Line { line, limit } => critical(robot, line.position(index), line.direction, *limit),
+            Self::Line { line, limit } => critical(robot, line.position(index), line.direction, *limit).await,
             Self::Map { grid, directions, asked } => match *asked {
                 Asked::Critical { limit } => {
-                    let (direction, verdict, wave_limit) = directions.verdict(robot, grid.position(index), limit);
+                    let (direction, verdict, wave_limit) = directions.verdict(robot, grid.position(index), limit).await;
                     Answer::Critical { direction, verdict, wave_limit }
                 }
-                Asked::Growth { speed } => Answer::Growth(directions.growth(robot, grid.position(index), speed)),
+                Asked::Growth { speed } => Answer::Growth(directions.growth(robot, grid.position(index), speed).await),
             },
-            Self::Polar { position, count, limit } => critical(robot, *position, compass(index, *count), *limit),
+            Self::Polar { position, count, limit } => critical(robot, *position, compass(index, *count), *limit).await,
             Self::Speeds { position, direction, to, count } => {
-                Answer::Spectrum(spectrum(robot, *position, *direction, evenly(0.0, *to, index, *count)))
+                Answer::Spectrum(spectrum(robot, *position, *direction, evenly(0.0, *to, index, *count)).await)
             }
             Self::Elements { position, direction, counts, limit } => {
                 let elements = counts.get(index).copied().unwrap_or_default();
                 match Robot::new(RobotSpec { elements, ..(**robot).clone() }) {
-                    Ok(robot) => critical(&robot, *position, *direction, *limit),
+                    Ok(robot) => critical(&robot, *position, *direction, *limit).await,
                     Err(_) => Answer::unknown(*direction),
                 }
             }
@@ -161,17 +168,17 @@ impl Answer {
     }
 }
 
-fn critical(robot: &Robot, position: Vec2, direction: Vec2, limit: f64) -> Answer {
+async fn critical(robot: &Robot, position: Vec2, direction: Vec2, limit: f64) -> Answer {
     let Ok(motion) = Motion::new(position, direction, 0.0) else {
         return Answer::Critical { direction, verdict: Verdict::Infeasible, wave_limit: None };
     };
-    let (verdict, wave_limit) = verdict(robot, &motion, limit);
+    let (verdict, wave_limit) = verdict_in_steps(robot, &motion, limit).await;
     Answer::Critical { direction: motion.direction(), verdict, wave_limit }
 }
 
-fn spectrum(robot: &Robot, position: Vec2, direction: Vec2, speed: f64) -> Result<Vec<Complex<f64>>, NoAnswer> {
+async fn spectrum(robot: &Robot, position: Vec2, direction: Vec2, speed: f64) -> Result<Vec<Complex<f64>>, NoAnswer> {
     let motion = Motion::new(position, direction, speed).map_err(|_| NoAnswer::Infeasible)?;
     let local = Local::new(robot, &motion).map_err(|failure| NoAnswer::from(&failure))?;
-    let spectrum = local.spectrum(speed).map_err(|_| NoAnswer::Failed)?;
+    let spectrum = local.spectrum_in_steps(speed).await.map_err(|_| NoAnswer::Failed)?;
     Ok(spectrum.modes().map(|mode| mode.eigenvalue).collect())
 }

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use crate::mechanics::{self, Failure, Statics};
 use crate::robot::{Motion, Robot, Vec2};
+use crate::stability::steps::finish;
 use crate::stability::{Critical, Outcome, is_lower};
 use crate::study::Local;
 
@@ -92,8 +93,13 @@ impl From<&Failure> for NoAnswer {
 /// The critical speed of `robot` on `motion`, searched up to `limit` (m/s, finite and greater than 0), and its wave limit
 /// in m/s where there is one ([`mechanics::wave_limit`]). The motion's speed does not matter.
 pub fn verdict(robot: &Robot, motion: &Motion, limit: f64) -> (Verdict, Option<f64>) {
+    finish(verdict_in_steps(robot, motion, limit))
+}
+
+/// The same in [steps](crate::stability::steps).
+pub(super) async fn verdict_in_steps(robot: &Robot, motion: &Motion, limit: f64) -> (Verdict, Option<f64>) {
     match mechanics::solve(robot, motion.position()) {
-        Ok(statics) => along(robot, statics, motion.direction(), limit),
+        Ok(statics) => along(robot, statics, motion.direction(), limit).await,
         Err(failure) => (Verdict::from(&failure), None),
     }
 }
@@ -108,12 +114,12 @@ fn lower(a: Option<f64>, b: Option<f64>) -> Option<f64> {
     a.into_iter().chain(b).min_by(f64::total_cmp)
 }
 
-fn along(robot: &Robot, statics: Statics, direction: Vec2, limit: f64) -> (Verdict, Option<f64>) {
+async fn along(robot: &Robot, statics: Statics, direction: Vec2, limit: f64) -> (Verdict, Option<f64>) {
     let local = match Local::along(robot, statics, direction) {
         Ok(local) => local,
         Err(failure) => return (Verdict::from(&failure), None),
     };
-    let verdict = match local.critical_speed(limit) {
+    let verdict = match local.critical_speed_in_steps(limit).await {
         Ok(Outcome::Found(critical)) => Verdict::Critical(critical),
         Ok(Outcome::NoneUpTo(limit)) => Verdict::NoneUpTo(limit),
         Err(_) => Verdict::NotConverged,
@@ -157,7 +163,7 @@ impl Directions {
     /// The lowest critical speed at `position` up to `limit` (m/s) with its direction, and the lowest wave limit of all
     /// directions; of directions that are critical at the same speed but for rounding the first one, and the first of all where no speed is critical. Where one direction is without an answer, so is the
     /// worst.
-    pub(super) fn verdict(self, robot: &Robot, position: Vec2, limit: f64) -> (Vec2, Verdict, Option<f64>) {
+    pub(super) async fn verdict(self, robot: &Robot, position: Vec2, limit: f64) -> (Vec2, Verdict, Option<f64>) {
         let directions = self.each();
         let mut worst = (directions.first().copied().unwrap_or(Vec2::x()), Verdict::Infeasible);
         let statics = match statics(robot, position) {
@@ -174,7 +180,7 @@ impl Directions {
         // that is where mirrored directions are critical, and at its very limit rounding would decide what is found.
         let (mut searched, mut lowest) = (limit, limit);
         for (k, &direction) in directions.iter().enumerate() {
-            let (verdict, wave_limit) = along(robot, statics.clone(), direction, searched);
+            let (verdict, wave_limit) = along(robot, statics.clone(), direction, searched).await;
             waves = lower(waves, wave_limit);
             match verdict {
                 Verdict::Critical(critical) => {
@@ -201,14 +207,14 @@ impl Directions {
     ///
     /// # Errors
     /// Why it is not known.
-    pub(super) fn growth(self, robot: &Robot, position: Vec2, speed: f64) -> Result<f64, NoAnswer> {
+    pub(super) async fn growth(self, robot: &Robot, position: Vec2, speed: f64) -> Result<f64, NoAnswer> {
         let no_answer = |verdict| if verdict == Verdict::Infeasible { NoAnswer::Infeasible } else { NoAnswer::Failed };
         let statics = statics(robot, position).map_err(no_answer)?;
-        let growth = |direction| {
+        let mut rates = Vec::new();
+        for direction in self.each() {
             let local = Local::along(robot, statics.clone(), direction).map_err(|failure| NoAnswer::from(&failure))?;
-            Ok(local.spectrum(speed).map_err(|_| NoAnswer::Failed)?.growth_rate())
-        };
-        let rates = self.each().into_iter().map(growth).collect::<Result<Vec<f64>, NoAnswer>>()?;
+            rates.push(local.spectrum_in_steps(speed).await.map_err(|_| NoAnswer::Failed)?.growth_rate());
+        }
         rates.into_iter().max_by(f64::total_cmp).ok_or(NoAnswer::Infeasible)
     }
 }

@@ -21,7 +21,7 @@ use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::meaning::Explain as _;
 use crate::app::studies::{Shown, Stage, Studies};
-use crate::compute::protocol::{ModeChoice, PoseAnswer, Topic, Which};
+use crate::compute::protocol::{Extent, ModeChoice, PoseAnswer, Topic, Which};
 
 /// Said over what belongs to an earlier state.
 const STALE: &str = "Being recomputed: this belongs to an earlier state.";
@@ -31,6 +31,15 @@ fn with_modes<'a>(ui: &mut Ui, answers: &'a Answers) -> Option<&'a PoseAnswer> {
     let pose = answers.pose().filter(|pose| !pose.modes.is_empty());
     if pose.is_none() {
         ui.weak("No eigenvalues at this pose.");
+    }
+    match pose.map(|pose| pose.extent) {
+        Some(Extent::SlowestSoFar) => {
+            ui.weak("The slowest modes so far; the others are being computed.");
+        }
+        Some(Extent::SlowestAlone) => {
+            ui.weak("The slowest modes alone: the others could not be computed.");
+        }
+        Some(Extent::All) | None => {}
     }
     pose
 }

@@ -1,49 +1,163 @@
 //! A worker's half of the pool: what it knows of the studies, and its work.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::Arc;
 use std::time::Duration;
 
 use web_time::Instant;
 
 use crate::compute::places::Places;
-use crate::compute::protocol::{BatchAnswer, PlaceAnswer, Task, Topic};
+use crate::compute::protocol::{Batch, BatchAnswer, PlaceAnswer, Task, Topic};
+use crate::stability::Steps;
 
+/// A slice of work ends after this time, so that the worker sees soon what else it is told.
+const SLICE: Duration = Duration::from_millis(8);
 /// A batch ends after this time, whatever is left of it.
-const SLICE: Duration = Duration::from_millis(20);
+const LONGEST: Duration = Duration::from_millis(20);
 
-/// Serves tasks, one after the other.
-#[derive(Default)]
+/// How a place is answered.
+type Answer = dyn Fn(&Arc<Places>, usize) -> Steps<PlaceAnswer> + Send + Sync;
+
+/// Serves tasks, one after the other and in slices: feed it with [`Bench::submit`], then call [`Bench::work`] until it
+/// returns `None`.
 pub struct Bench {
+    answer: Arc<Answer>,
     /// By topic the newest study with its generation; each is read from its scenario once.
-    studies: BTreeMap<Topic, (u64, Places)>,
+    studies: BTreeMap<Topic, (u64, Arc<Places>)>,
+    batches: VecDeque<AtWork>,
+}
+
+/// A batch with its answers so far.
+struct AtWork {
+    batch: Batch,
+    place: Option<Steps<PlaceAnswer>>,
+    answers: Vec<(usize, PlaceAnswer)>,
+    spent: Duration,
+}
+
+impl Default for Bench {
+    fn default() -> Self {
+        Self::by(Arc::new(Places::answer))
+    }
 }
 
 impl Bench {
-    /// Does one task, each place answered by `answer`; a batch has an answer.
-    pub fn serve(&mut self, task: &Task, answer: impl Fn(&Places, usize) -> PlaceAnswer) -> Option<BatchAnswer> {
+    /// One that answers each place by `answer`.
+    pub(super) fn by(answer: Arc<Answer>) -> Self {
+        Self { answer, studies: BTreeMap::new(), batches: VecDeque::new() }
+    }
+
+    /// Takes a task.
+    pub fn submit(&mut self, task: Task) {
         match task {
             Task::Study { generation, job } => {
+                self.studies.remove(&job.study.topic());
                 // The pool has read it before; what cannot be read leaves its batches without answers.
-                if let Ok(places) = Places::new(job) {
-                    self.studies.insert(job.study.topic(), (*generation, places));
+                if let Ok(places) = Places::new(&job) {
+                    self.studies.insert(job.study.topic(), (generation, Arc::new(places)));
                 }
-                None
+            }
+            Task::Forget(topic) => {
+                self.studies.remove(&topic);
             }
             Task::Batch(batch) => {
-                let begun = Instant::now();
-                let mut answers = Vec::with_capacity(batch.places.len());
-                if let Some((generation, places)) = self.studies.get(&batch.topic)
-                    && *generation == batch.generation
-                {
-                    for &place in &batch.places {
-                        answers.push((place, answer(places, place)));
-                        if begun.elapsed() > SLICE {
-                            break;
-                        }
-                    }
-                }
-                Some(BatchAnswer { answers, seconds: begun.elapsed().as_secs_f64() })
+                self.batches.push_back(AtWork { batch, place: None, answers: Vec::new(), spent: Duration::ZERO });
             }
+        }
+    }
+
+    /// Does a slice of work; gives the answer of a batch that ends with it. `None` when there is nothing left to do.
+    ///
+    /// A batch of a study that has been forgotten, or replaced, ends at once with what it has.
+    pub fn work(&mut self) -> Option<Option<BatchAnswer>> {
+        let at_work = self.batches.front_mut()?;
+        let begun = Instant::now();
+        let known = self.studies.get(&at_work.batch.topic);
+        let study = known.filter(|(generation, _)| *generation == at_work.batch.generation);
+        let ended = study.is_none_or(|(_, places)| at_work.go_on(places, &*self.answer, begun));
+        at_work.spent += begun.elapsed();
+        if !ended {
+            return Some(None);
+        }
+        let AtWork { answers, spent, .. } = self.batches.pop_front()?;
+        Some(Some(BatchAnswer { answers, seconds: spent.as_secs_f64() }))
+    }
+}
+
+impl AtWork {
+    /// Goes on for the slice that has `begun`; whether the batch ends with it.
+    fn go_on(&mut self, places: &Arc<Places>, answer: &Answer, begun: Instant) -> bool {
+        while let Some(&place) = self.batch.places.get(self.answers.len()) {
+            let steps = self.place.get_or_insert_with(|| answer(places, place));
+            loop {
+                if let Some(found) = steps.advance() {
+                    self.place = None;
+                    self.answers.push((place, found));
+                    break;
+                }
+                if begun.elapsed() >= SLICE {
+                    return false;
+                }
+            }
+            if self.spent + begun.elapsed() > LONGEST {
+                break;
+            }
+            if begun.elapsed() >= SLICE {
+                return self.answers.len() == self.batch.places.len();
+            }
+        }
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::protocol::{StudyChoice, StudyJob};
+    use crate::scenario::presets;
+    use crate::stability::steps::step;
+
+    /// A place that never ends, in steps of a millisecond.
+    fn endless() -> Bench {
+        let forever = || async {
+            loop {
+                std::thread::sleep(Duration::from_millis(1));
+                step().await;
+            }
+        };
+        Bench::by(Arc::new(move |_, _| Steps::new(forever())))
+    }
+
+    fn told(generation: u64, points: usize) -> [Task; 2] {
+        let study = StudyChoice::Line { points, max_speed: 40.0 };
+        let job = StudyJob { revision: 1, scenario: presets::PRESETS[0].scenario().to_json(), study };
+        let places = (0..points).collect();
+        [Task::Study { generation, job }, Task::Batch(Batch { topic: Topic::Line, generation, places })]
+    }
+
+    /// However long a place takes, the worker hears of it after a slice that its study is no longer wanted.
+    #[test]
+    fn a_place_is_given_up_when_its_study_is_forgotten_or_replaced() {
+        for replaced in [false, true] {
+            let mut bench = endless();
+            for task in told(1, 3) {
+                bench.submit(task);
+            }
+            for _ in 0..5 {
+                let begun = Instant::now();
+                assert_eq!(bench.work(), Some(None));
+                assert!(begun.elapsed() < 20 * SLICE, "{:?}", begun.elapsed());
+            }
+            if replaced {
+                for task in told(2, 2) {
+                    bench.submit(task);
+                }
+            } else {
+                bench.submit(Task::Forget(Topic::Line));
+            }
+            let Some(Some(BatchAnswer { answers, .. })) = bench.work() else { panic!("no answer") };
+            assert!(answers.is_empty());
+            assert_eq!(bench.work(), replaced.then_some(None), "what is left is the newer study");
         }
     }
 }

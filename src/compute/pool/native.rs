@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread;
 
@@ -13,9 +13,10 @@ use super::core::{Core, Event};
 use super::scheduler::{Scheduler, WorkerId};
 use crate::compute::places::Places;
 use crate::compute::protocol::{PlaceAnswer, Task};
+use crate::stability::Steps;
 
 /// How a place is answered.
-type Answer = dyn Fn(&Places, usize) -> PlaceAnswer + Send + Sync;
+type Answer = dyn Fn(&Arc<Places>, usize) -> Steps<PlaceAnswer> + Send + Sync;
 
 /// What the interface and the threads share. A thread that has an answer gets its next places at once.
 pub struct Shared {
@@ -33,7 +34,7 @@ impl Shared {
     pub(super) fn by(
         size: usize,
         wake: impl Fn() + Send + Sync + 'static,
-        answer: impl Fn(&Places, usize) -> PlaceAnswer + Send + Sync + 'static,
+        answer: impl Fn(&Arc<Places>, usize) -> Steps<PlaceAnswer> + Send + Sync + 'static,
     ) -> Self {
         let (wake, answer) = (Arc::new(wake), Arc::new(answer));
         let core = Arc::new_cyclic(|core| {
@@ -92,7 +93,7 @@ impl Crew {
         let (report, answer) = (self.report.clone(), self.answer.clone());
         let run = move || {
             report.tell(worker, Event::Ready);
-            let end = catch_unwind(AssertUnwindSafe(|| serve(worker, &tasks, &report, &*answer)));
+            let end = catch_unwind(AssertUnwindSafe(|| serve(worker, &tasks, &report, answer)));
             if let Err(payload) = end {
                 report.tell(worker, Event::Lost(reason(&*payload)));
             }
@@ -112,18 +113,30 @@ impl Crew {
         if sent { Ok(()) } else { Err("the thread has ended".into()) }
     }
 
-    /// Ends a thread as soon as it has done its tasks.
+    /// Ends a thread after its slice.
     pub fn stop(&mut self, worker: WorkerId) {
         self.inboxes.remove(&worker);
     }
 }
 
 /// Runs until the other side is dropped.
-fn serve(worker: WorkerId, tasks: &Receiver<Task>, report: &Report, answer: &Answer) {
-    let mut bench = Bench::default();
+fn serve(worker: WorkerId, tasks: &Receiver<Task>, report: &Report, answer: Arc<Answer>) {
+    let mut bench = Bench::by(answer);
     while let Ok(task) = tasks.recv() {
-        if let Some(batch) = bench.serve(&task, answer) {
-            report.tell(worker, Event::Answered(batch));
+        bench.submit(task);
+        loop {
+            match tasks.try_recv() {
+                Ok(newer) => {
+                    bench.submit(newer);
+                    continue;
+                }
+                Err(TryRecvError::Empty) => {}
+                Err(TryRecvError::Disconnected) => return,
+            }
+            let Some(answered) = bench.work() else { break };
+            if let Some(batch) = answered {
+                report.tell(worker, Event::Answered(batch));
+            }
         }
     }
 }

@@ -45,6 +45,8 @@ pub struct Scheduler {
     workers: BTreeMap<WorkerId, Worker>,
     /// Workers to be ended.
     dismissed: Vec<WorkerId>,
+    /// Topics whose study has ended, with workers that are at it.
+    forgotten: Vec<(WorkerId, Topic)>,
     news: Vec<StudyNews>,
     /// Counts studies, workers and turns.
     generation: u64,
@@ -80,6 +82,7 @@ impl Scheduler {
             rates: BTreeMap::new(),
             workers: BTreeMap::new(),
             dismissed: Vec::new(),
+            forgotten: Vec::new(),
             news: Vec::new(),
             generation: 0,
             last_worker: 0,
@@ -113,7 +116,17 @@ impl Scheduler {
 
     /// Ends a topic's study; nothing more comes of it, not even news that has not been fetched.
     pub fn cancel(&mut self, topic: Topic) {
-        self.studies.remove(&topic);
+        if let Some(study) = self.studies.remove(&topic) {
+            // Places may take long: who is at one of them is to be free for what is wanted now.
+            let is_at_it = |worker: &Worker| {
+                worker.batches.iter().any(|batch| (batch.topic, batch.generation) == (topic, study.generation))
+            };
+            let at_it = self.workers.iter_mut().filter(|(_, worker)| is_at_it(worker));
+            self.forgotten.extend(at_it.map(|(id, worker)| {
+                worker.told.remove(&topic);
+                (*id, topic)
+            }));
+        }
         self.news.retain(|news| match news {
             StudyNews::Places { topic: of, .. }
             | StudyNews::Finished { topic: of, .. }
@@ -209,6 +222,9 @@ impl Scheduler {
             self.find_lost();
         }
         let mut actions: Vec<Action> = self.dismissed.drain(..).map(Action::Stop).collect();
+        let forgotten = std::mem::take(&mut self.forgotten).into_iter();
+        let alive = forgotten.filter(|(id, _)| self.workers.contains_key(id));
+        actions.extend(alive.map(|(id, topic)| Action::Tell(id, Task::Forget(topic))));
         if !self.held {
             self.hand_out(&mut actions);
             self.start_workers(&mut actions);

@@ -90,7 +90,7 @@ impl Stage {
     fn at(&self, worker: WorkerId) -> Option<Batch> {
         self.inboxes.get(&worker)?.iter().find_map(|task| match task {
             Task::Batch(batch) => Some(batch.clone()),
-            Task::Study { .. } => None,
+            Task::Study { .. } | Task::Forget(_) => None,
         })
     }
 
@@ -399,6 +399,44 @@ fn wait(shared: &Shared) -> Vec<StudyNews> {
     news
 }
 
+/// A place's answer, all at once.
+fn finish(places: &Arc<Places>, place: usize) -> PlaceAnswer {
+    let mut steps = places.answer(place);
+    loop {
+        if let Some(answer) = steps.advance() {
+            return answer;
+        }
+    }
+}
+
+/// A place may take a minute. Whoever is at one is free for what is wanted instead, or for nothing, at once.
+#[test]
+fn workers_hear_that_the_study_they_are_at_is_no_longer_wanted() {
+    let mut stage = Stage::new(2);
+    stage.scheduler.want(job(1, line(1)));
+    stage.go_on();
+    stage.scheduler.want(job(2, line(1)));
+    stage.go_on();
+    let told = |stage: &Stage, worker: WorkerId| -> Vec<&'static str> {
+        let name = |task: &Task| match task {
+            Task::Study { .. } => "study",
+            Task::Batch(_) => "batch",
+            Task::Forget(Topic::Line) => "forget",
+            Task::Forget(_) => "forget another",
+        };
+        stage.inboxes.get(&worker).into_iter().flatten().map(name).collect()
+    };
+    let begun = told(&stage, 1);
+    assert!(begun.starts_with(&["study", "batch", "forget"]), "{begun:?}");
+    stage.scheduler.cancel(Topic::Line);
+    stage.go_on();
+    let forgets = |stage: &Stage| [1, 2].map(|worker| told(stage, worker).iter().filter(|&&t| t == "forget").count());
+    assert_eq!(forgets(&stage).iter().sum::<usize>(), 2, "who was at the second study hears it too");
+    stage.scheduler.cancel(Topic::Line);
+    stage.go_on();
+    assert_eq!(forgets(&stage).iter().sum::<usize>(), 2, "once");
+}
+
 #[test]
 fn a_thread_that_panics_is_replaced_and_its_places_are_done_again() {
     let (accidents, wakes) = (Arc::new(AtomicUsize::new(0)), Arc::new(AtomicUsize::new(0)));
@@ -406,21 +444,21 @@ fn a_thread_that_panics_is_replaced_and_its_places_are_done_again() {
     let wake = move || {
         woken.fetch_add(1, Ordering::Relaxed);
     };
-    let answer = move |places: &Places, place: usize| {
+    let answer = move |places: &Arc<Places>, place: usize| {
         assert!(place != 3, "this place is deadly");
         assert!(!place.is_multiple_of(5) || accidents.fetch_add(1, Ordering::Relaxed) > 1, "an accident");
         places.answer(place)
     };
     let shared = Shared::by(2, wake, answer);
     let wanted = job(1, line(12));
-    let places = Places::new(&wanted).expect("a study");
+    let places = Arc::new(Places::new(&wanted).expect("a study"));
     shared.with(|core| {
         core.scheduler.want(wanted);
         core.go_on();
     });
     let all = check_complete(wait(&shared), 12);
     for (place, answer) in all {
-        assert_eq!(answer, if place == 3 { places.unknown(place) } else { places.answer(place) });
+        assert_eq!(answer, if place == 3 { places.unknown(place) } else { finish(&places, place) });
     }
     assert!(wakes.load(Ordering::Relaxed) > 0);
 }
