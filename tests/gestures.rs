@@ -399,7 +399,7 @@ const MEANINGS: [(&str, &str); 5] = [
     ("Young's modulus E", "makes the axial stiffness"),
     ("Strain", "The strain measure"),
     ("(frozen-time criterion: what is it?)", "frozen at this moment"),
-    ("11.2990 m/s", "frozen at this moment"),
+    ("11.3 m/s", "frozen at this moment"),
 ];
 
 fn label(app: &App, label: &str) -> Pos2 {
