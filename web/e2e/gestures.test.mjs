@@ -26,3 +26,40 @@ browserTest("the end of a drag counts that comes in one frame with the release",
     const { position } = await motion(page);
     assert.ok(Math.abs(position[0] - by / scale) <= 0.5 / scale, `x = ${position[0]} in place of ${by / scale}`);
 });
+
+browserTest("a finger scrolls up and down, turns sideways and edits by a tap, from the first touch on", async ({ open }) => {
+    const page = await open("", { viewport: { width: 360, height: 740 }, hasTouch: true });
+    await waitForStart(page);
+    await waitForAnalysis(page);
+    const hand = await page.context().newCDPSession(page);
+    const touch = (type, touchPoints) => hand.send("Input.dispatchTouchEvent", { type, touchPoints });
+    const swipe = async ([x, y], [right, down]) => {
+        await touch("touchStart", [{ x, y }]);
+        for (let part = 0.1; right || down ? part < 1.05 : false; part += 0.1) {
+            await touch("touchMove", [{ x: x + right * part, y: y + down * part }]);
+            await page.waitForTimeout(30);
+        }
+        // It rests, so that nothing coasts on.
+        await page.waitForTimeout(250);
+        await touch("touchEnd", []);
+        await page.waitForTimeout(250);
+    };
+    const scenario = () => page.evaluate(() => window.tautline.scenario());
+    // The first touch of all, on words, scrolls up by 30: a tap then finds the speed's value that much higher.
+    await swipe([60, 690], [0, -30]);
+    await swipe([275, 590 - 30], [0, 0]);
+    await page.keyboard.press("ControlOrMeta+A");
+    await page.keyboard.type("7");
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => window.tautline.scenario().motion.speed === 7);
+    // The direction's slider and value.
+    const before = await scenario();
+    for (const from of [[185, 614 - 30], [275, 614 - 30]]) {
+        await swipe(from, [0, 30]);
+        assert.deepEqual(await scenario(), before, `a swipe down from ${from}`);
+        await swipe(from, [0, -30]);
+        assert.deepEqual(await scenario(), before, `a swipe up from ${from}`);
+    }
+    await swipe([160, 590 - 30], [40, 2]);
+    await page.waitForFunction(() => window.tautline.scenario().motion.speed > 12);
+});

@@ -71,5 +71,9 @@ pub fn scroll<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
         // egui's name for what is dragged when a finger drags the content.
         ui.ctx().set_dragged_id(ui.make_persistent_id(IdSalt::new(SALT)).with("area"));
     }
-    ScrollArea::both().id_salt(SALT).auto_shrink(false).show(ui, content).inner
+    let shown = ScrollArea::both().id_salt(SALT).auto_shrink(false).show(ui, content);
+    // Words take drags as well, to be marked.
+    let place = (ui.layer_id(), shown.inner_rect);
+    ui.ctx().with_plugin(|gestures: &mut Gestures| gestures.turning.push(place));
+    shown.inner
 }
