@@ -8,7 +8,7 @@
 mod interface;
 
 use eframe::egui::accesskit::Role;
-use eframe::egui::{Event, Key, Modifiers, Theme, Vec2};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Theme, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use tautline::app::Tautline;
@@ -456,4 +456,26 @@ fn a_drag_changes_only_what_it_moves() {
         settle(&mut app);
         assert_eq!(bits(app.state().scenario()), bits(&scenario), "{name}");
     }
+}
+
+/// Where frames are slow a click and all that is typed after it come in one.
+#[test]
+fn what_is_typed_faster_than_frames_are_drawn_is_not_lost() {
+    let mut app = app();
+    let modifiers = Modifiers::default();
+    let typed = [("Young's modulus E", "0.2 GPa"), ("Cross-section A", "60 mm²"), ("Cable mass μ", "500 g/m")];
+    for (name, text) in typed {
+        let pos = app.get_by_role_and_label(Role::SpinButton, name).rect().center();
+        let button = |pressed| Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers };
+        let letters = text.chars().map(|letter| Event::Text(letter.into()));
+        app.input_mut()
+            .events
+            .extend([Event::PointerMoved(pos), button(true), button(false)].into_iter().chain(letters));
+    }
+    let key = |key| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
+    app.input_mut().events.push(key(Key::Enter));
+    app.run_steps(30);
+    settle(&mut app);
+    let cable = app.state().scenario().cable;
+    assert_eq!((cable.youngs_modulus, cable.area, cable.mass_per_length), (0.2e9, 6e-5, 0.5));
 }

@@ -152,7 +152,8 @@ browserTest("the robot is safe in the middle of a drag", async ({ open }) => {
 browserTest("nothing from a file or a link becomes part of the page, and nothing leaves it", async ({ open, origin }) => {
     const page = await open("", { permissions: ["clipboard-read", "clipboard-write"] });
     await started(page);
-    const elements = () => page.evaluate(() => document.querySelectorAll("body *").length);
+    // The lines for screen readers come and go with what is known; whatever else they had in them would count.
+    const elements = () => page.evaluate(() => document.querySelectorAll("body *:not(#tautline-details > li)").length);
     const name = `<img src=x onerror="window.taken=1"><script>window.taken=1</script>`;
     const evil = { ...(await scenario(page)), name };
     const before = await elements();

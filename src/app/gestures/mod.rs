@@ -1,5 +1,5 @@
-//! What the pointer does before egui hears of it: nothing of a drag is lost when frames are slow, and a finger that moves
-//! up or down scrolls, whatever it began on.
+//! What hands do before egui hears of it: nothing of a drag or of what is typed is lost when frames are slow, and a finger
+//! that moves up or down scrolls, whatever it began on.
 
 mod queue;
 #[cfg(target_arch = "wasm32")]

@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeSet, VecDeque};
 
-use eframe::egui::{Event, Modifiers, PointerButton, Pos2, TouchId, TouchPhase};
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, TouchId, TouchPhase};
 
 /// A finger that has moved this far, in points, shows where it wants to go. It is egui's own limit of clicks.
 const DECIDED: f32 = 6.0;
@@ -83,7 +83,19 @@ impl Queue {
         }
         // Whether a button has changed in this pass, and whether something was dragged.
         let (mut changed, mut dragged) = (false, false);
+        // Whether a key was pressed in this pass, and whether one that hands the focus on.
+        let (mut typed, mut handed_on) = (false, false);
         while let Some(Waiting { event, finger }) = self.waiting.pop_front() {
+            // What has the focus is settled between passes. So keys wait until a click or a key has given it away, and
+            // those wait for the keys before them.
+            let (types, hands_on) = (is_typed(&event), hands_focus_on(&event));
+            let gives_focus = hands_on || matches!(event, Event::PointerButton { .. });
+            if (types && (changed || handed_on)) || (gives_focus && typed) {
+                self.waiting.push_front(Waiting { event, finger });
+                break;
+            }
+            typed |= types;
+            handed_on |= hands_on;
             match event {
                 Event::PointerMoved(to) if self.is_undecided() => {
                     let way = to - self.at.unwrap_or(to);
@@ -207,6 +219,16 @@ fn same(a: Pos2, b: Pos2) -> bool {
     a.distance(b) < 1.0
 }
 
+/// Whether it is for what has the keyboard's focus.
+fn is_typed(event: &Event) -> bool {
+    matches!(event, Event::Key { pressed: true, .. } | Event::Text(_) | Event::Paste(_) | Event::Cut | Event::Ime(_))
+}
+
+/// Whether it is a key that may take the focus elsewhere.
+fn hands_focus_on(event: &Event) -> bool {
+    matches!(event, Event::Key { key: Key::Tab | Key::Enter | Key::Escape, pressed: true, .. })
+}
+
 #[cfg(test)]
 mod tests {
     use eframe::egui::{TouchDeviceId, pos2};
@@ -253,6 +275,31 @@ mod tests {
         let events = vec![moved(A), button(A, true), moved(RIGHT), moved(DOWN), button(DOWN, false)];
         let expected = [vec![moved(A), button(A, true)], vec![moved(RIGHT), moved(DOWN)], vec![button(DOWN, false)]];
         assert_eq!(passes(events, true), expected);
+    }
+
+    #[test]
+    fn keys_wait_for_what_gives_the_focus_and_it_waits_for_them() {
+        let text = |letter: &str| Event::Text(letter.into());
+        let key = |key| {
+            let modifiers = Modifiers::default();
+            Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
+        };
+        let click = [button(A, true), button(A, false)];
+        let mut events = vec![Event::PointerMoved(A)];
+        events.extend(click.clone());
+        events.extend([text("1"), text("2"), key(Key::Tab), text("3"), key(Key::Enter)]);
+        events.extend(click.clone());
+        let expected = [
+            vec![Event::PointerMoved(A), button(A, true)],
+            vec![button(A, false)],
+            vec![text("1"), text("2")],
+            vec![key(Key::Tab)],
+            vec![text("3")],
+            vec![key(Key::Enter)],
+            vec![button(A, true)],
+            vec![button(A, false)],
+        ];
+        assert_eq!(passes(events, false), expected);
     }
 
     #[test]

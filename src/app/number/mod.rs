@@ -203,12 +203,13 @@ impl Control<'_> {
             .desired_width(self.size.x)
             .font(ui.style().drag_value_text_style.clone())
             .event_filter(EventFilter { horizontal_arrows: true, vertical_arrows: true, tab: false, escape: true });
-        let response = ui.add(edit);
         if is_new {
+            // Ahead of the letters that have come meanwhile, which take the place of what is marked.
             let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
-            state.cursor.set_char_range(Some(CCursorRange::select_all_str(&typing.text)));
+            state.cursor.set_char_range(Some(CCursorRange::select_all_str(&before)));
             state.store(ui.ctx(), id);
         }
+        let response = ui.add(edit);
         if typing.text != before {
             typing.refused = None;
             forget_message_of(ui.ctx(), id);
