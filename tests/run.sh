@@ -5,10 +5,10 @@
 #   clippy       lints, native                    core     the numerics alone, without features
 #   clippy-wasm  lints, browser                   web      the page and the npm package, built for release
 #   doc          the documentation builds         e2e      both in a browser (needs web)
-#                                                 desktop  the program in a real window
+#   deny         licences of all dependencies     desktop  the program in a real window
 set -euo pipefail
 cd "$(dirname "$0")/.."
-all=(fmt clippy clippy-wasm doc test core web e2e desktop)
+all=(fmt clippy clippy-wasm doc deny test core web e2e desktop)
 
 step_fmt() { cargo fmt --check; }
 
@@ -28,6 +28,9 @@ step_clippy-wasm() {
 }
 
 step_doc() { RUSTDOCFLAGS="-D warnings" cargo doc --no-deps; }
+
+# Advisories are another workflow's: one that appears overnight must not fail a change that has nothing to do with it.
+step_deny() { web/tools.sh cargo-deny --locked check licenses bans sources; }
 
 # Without GNU parallel one test is passed over where a developer runs `cargo test` alone, but not here.
 step_test() {

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Runs a command with Trunk and wasm-bindgen in the versions that this project wants: web/tools.sh CMD…
-# What PATH has is used if it fits; otherwise it is installed under target/tools, away from the user's own.
+# Runs a command with the programs it needs in the versions that this project wants: web/tools.sh CMD…
+# These are cargo-deny for `cargo-deny`, Trunk and wasm-bindgen for all else. What PATH has is used if it fits; otherwise
+# it is installed under target/tools, away from the user's own.
 set -euo pipefail
 root=$(cd "$(dirname "$0")/.." && pwd)
 tools=$root/target/tools
 
+cargo_deny=0.20.2
 trunk=0.21.14
 # The program must be of exactly the library's version, or the page does not load.
 wasm_bindgen=$(awk '/^name = "wasm-bindgen"$/ { getline; gsub(/[^0-9.]/, ""); print; exit }' "$root/Cargo.lock")
@@ -28,8 +30,12 @@ need() {
 }
 
 export PATH="$tools/bin:$PATH"
-# Trunk does not compile with newer dependencies than its own lock file names; one dependency that
-# wasm-bindgen's lock file names is gone from some mirrors.
-need trunk "$trunk" trunk "2 minutes" --locked
-need wasm-bindgen "$wasm_bindgen" wasm-bindgen-cli "1 minute" --bin wasm-bindgen
+if [ "${1-}" = cargo-deny ]; then
+    need cargo-deny "$cargo_deny" cargo-deny "2 minutes" --locked
+else
+    # Trunk does not compile with newer dependencies than its own lock file names. One dependency that wasm-bindgen's
+    # lock file names is gone from some mirrors.
+    need trunk "$trunk" trunk "2 minutes" --locked
+    need wasm-bindgen "$wasm_bindgen" wasm-bindgen-cli "1 minute" --bin wasm-bindgen
+fi
 exec "$@"
