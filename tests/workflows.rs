@@ -50,12 +50,19 @@ fn each_job_has_the_rights_that_it_needs_and_no_more() {
         assert!(text.lines().any(|line| line == "permissions: {}"), "{file}: rights for every job");
         for (name, job) in jobs(&text) {
             let rights: Vec<&str> = below(&job, "    permissions:").iter().map(|line| line.trim()).collect();
-            let allowed: &[&str] =
-                if name == "publish" { &["pages: write", "id-token: write"] } else { &["contents: read"] };
+            let allowed: &[&str] = match name.as_str() {
+                "publish" => &["pages: write", "id-token: write"],
+                "draft" => &["actions: read", "contents: write"],
+                _ => &["contents: read"],
+            };
             assert_eq!(rights, allowed, "{file}: {name}");
-            // Whoever may write runs nothing of this repository, nor of its dependencies.
-            let runs = job.lines().any(|line| line.trim_start().trim_start_matches("- ").starts_with("run:"));
-            assert!(name != "publish" || !runs, "{file}: {name} runs a program");
+            if allowed.iter().any(|right| right.ends_with("write")) {
+                // A job that may write runs nothing of this repository, nor of its dependencies.
+                assert!(!job.contains("actions/checkout@"), "{file}: {name} has a copy of the repository");
+                let mut runs =
+                    job.lines().filter_map(|line| line.trim_start().trim_start_matches("- ").strip_prefix("run:"));
+                assert!(runs.all(|run| run.starts_with(" gh ")), "{file}: {name} runs a program");
+            }
         }
         // Later steps cannot read the token that the checkout used.
         assert_eq!(
@@ -84,4 +91,36 @@ fn pages_are_published_only_of_what_the_checks_have_passed() {
         }
     }
     assert_eq!(published, 1);
+}
+
+/// The oldest compiler that Cargo.toml allows is the one that everything is tested with.
+#[test]
+fn the_compiler_is_the_oldest_that_is_allowed() {
+    let oldest = format!("{} ", env!("CARGO_PKG_RUST_VERSION"));
+    let mut installed = 0;
+    for (file, text) in workflows() {
+        for (_, version) in text.lines().filter_map(|line| line.split_once("rustup toolchain install ")) {
+            assert!(version.starts_with(&oldest), "{file}: Rust {version}, not {oldest}");
+            installed += 1;
+        }
+    }
+    assert!(installed > 0);
+}
+
+/// A release is drafted after all else has succeeded, of tags alone, and of nothing that a cache has kept.
+#[test]
+fn a_release_waits_for_the_checks_and_uses_no_cache() {
+    let mut drafts = 0;
+    for (file, text) in workflows() {
+        let jobs = jobs(&text);
+        for (_, job) in jobs.iter().filter(|(_, job)| job.contains("gh release create")) {
+            drafts += 1;
+            let others: Vec<&str> =
+                jobs.iter().map(|(name, _)| name.as_str()).filter(|name| *name != "draft").collect();
+            assert!(job.contains(&format!("    needs: [{}]\n", others.join(", "))), "{file}: {others:?}");
+            assert_eq!(below(&text, "on:"), ["  push:", "    tags: [\"v*\"]"], "{file}");
+            assert!(!text.contains("cache@") && !text.contains("cache:"), "{file} uses a cache");
+        }
+    }
+    assert_eq!(drafts, 1);
 }
