@@ -38,7 +38,7 @@ fn with_lower(scenario: &Scenario, tension: f64) -> Scenario {
 }
 
 #[test]
-fn there_are_six() {
+fn the_names_are_known() {
     let names: Vec<&str> = presets::PRESETS.iter().map(|preset| preset.name).collect();
     assert_eq!(names, ["paper", "paper-tangent", "slack", "building", "lab", "five-cables"]);
 }
