@@ -1,7 +1,7 @@
 //! What a critical speed and a spectrum cost, by structure and by dense eigenvalue solvers: `cargo bench`.
 //!
-//! `*_faer` are scans by the dense eigenvalue solver of faer, on one thread, without knowledge of the structure but for
-//! what their names say; the numbers side by side, as ratios, are those of `cargo bench --bench ratios`.
+//! `*_faer` are scans by the dense eigenvalue solver of faer, on one thread. They use only the structure that their names
+//! tell. `cargo bench --bench ratios` prints the ratios.
 #![allow(missing_docs, reason = "benchmarks are named after what they measure")]
 
 #[path = "../tests/common/mod.rs"]
@@ -32,14 +32,14 @@ fn local(robot: &Robot, x: f64) -> Local {
     Local::new(robot, &motion).expect("a feasible pose")
 }
 
-/// The paper's robot in its origin.
+/// The paper's robot at the origin.
 fn at_origin(linearisation: Linearisation, elements: usize) -> (Robot, Local) {
     let robot = paper(linearisation, elements);
     let local = local(&robot, 0.0);
     (robot, local)
 }
 
-/// The referee for it, of all unknowns or of one direction where both are the same problem.
+/// Its referee: of all unknowns, or of one direction if both are the same problem.
 fn referee(linearisation: Linearisation, elements: usize, whole: bool) -> Referee {
     let (robot, local) = at_origin(linearisation, elements);
     let new = if whole { Referee::without_structure } else { Referee::new };
@@ -102,7 +102,7 @@ mod critical_speed {
         faer(bencher, Linearisation::Secant, elements, false);
     }
 
-    /// As one writes it who does not know that x and y decouple.
+    /// As one would write it without knowing that x and y decouple.
     #[divan::bench(args = [10], sample_count = 5)]
     fn dense_secant_both_directions_faer(bencher: Bencher, elements: usize) {
         faer(bencher, Linearisation::Secant, elements, true);

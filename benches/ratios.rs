@@ -1,7 +1,7 @@
-//! How many times slower a dense scan is than the structured search, how the search's cost grows with the mesh, and what
-//! a frame of a drag costs, in one run: `cargo bench --bench ratios` prints tables.
+//! `cargo bench --bench ratios` prints tables: how many times slower a dense scan is than the structured search, how the
+//! search's cost grows with the mesh, and what a frame of a drag costs.
 //!
-//! What is compared takes turns, so that a machine's other work and its clock slow both sides; medians are compared.
+//! The two sides of a comparison take turns, so that a machine's other work and its clock slow both. Medians are compared.
 #![allow(missing_docs, reason = "a program")]
 
 #[path = "../tests/common/mod.rs"]
@@ -92,7 +92,7 @@ fn growth(linearisation: Linearisation) {
     println!("| {linearisation:?} | {a} | {b} | {c} | {d} | {:.2} |", exponent(&meshes, &medians));
 }
 
-/// A frame of a drag: all that a new pose asks for.
+/// A frame of a drag: all that a new pose needs.
 fn frame(linearisation: Linearisation) {
     let robot = paper(linearisation, 10);
     let mut times = [const { Vec::new() }; 5];

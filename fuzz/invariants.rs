@@ -1,6 +1,6 @@
-//! What must hold for any bytes from outside: no panic, no hang, and of what is accepted every number finite and
-//! nothing lost. One function per fuzz target, with the same name; `tests/fuzz_corpus.rs` calls them too. Each tells
-//! whether the bytes got past the checks of what they are to be.
+//! What must hold for any bytes from outside: no panic and no hang. If the bytes are accepted, every number in the answer
+//! is finite and nothing is lost. Each fuzz target has a function of the same name; `tests/fuzz_corpus.rs` calls them too.
+//! A function gives whether the bytes were accepted.
 
 use std::ffi::OsString;
 use std::fmt::Debug;
@@ -20,7 +20,7 @@ use tautline::scenario::link::{self, LinkError};
 use tautline::scenario::report::StatusReport;
 use tautline::scenario::{Report, Scenario, presets};
 
-/// What a target does with bytes; whether it accepts them.
+/// A target: tries bytes and gives whether they were accepted.
 pub type Target = fn(&[u8]) -> bool;
 
 /// Every target with its name.
@@ -33,9 +33,10 @@ pub const TARGETS: [(&str, Target); 6] = [
     ("arguments", arguments),
 ];
 
-/// What keeps a processor busy for longer hangs. Replayed as a test it may be a slow machine, or a build that counts lines.
+/// A call that keeps a processor busy for longer than this hangs. Replayed as a test it may run on a slow machine, or in a
+/// build that counts lines.
 const HANG: Duration = Duration::from_secs(if cfg!(test) { 10 } else { 1 });
-/// Elements of all cables of a robot that is computed: larger ones take long and tell no more.
+/// The most elements, of all cables together, of a robot that is computed: larger ones take long and tell no more.
 const MOST_ELEMENTS: usize = 24;
 /// Critical speeds are searched up to this speed in m/s: robots without damping are scanned in steps of 0.1 m/s.
 const MOST_SPEED: f64 = 2.0;
@@ -282,12 +283,12 @@ fn sent(message: &Incoming) -> Incoming {
     received
 }
 
-/// As texts: a number that is none equals nothing, not even itself.
+/// Compared as texts, since NaN is not equal to itself.
 fn same<T: Debug>(a: &T, b: &T) {
     assert_eq!(format!("{a:?}"), format!("{b:?}"));
 }
 
-/// Every number in `value` is finite; texts may quote what is not.
+/// Every number in `value` is finite. Texts may quote numbers that are not.
 fn finite(value: &impl Debug) {
     let text = format!("{value:?}");
     assert!(text.split('"').step_by(2).all(is_finite), "{text}");
@@ -358,7 +359,7 @@ fn are_cheap(arguments: &[&str]) -> bool {
         }
         rows *= numbers.next_back().unwrap_or(1.0).max(1.0);
     }
-    // What is no number counts as none.
+    // A text that is no number counts as none.
     rows <= MOST_PLACES as f64 && !arguments.iter().any(|argument| Path::new(argument).exists())
 }
 
@@ -366,7 +367,7 @@ fn are_cheap(arguments: &[&str]) -> bool {
 fn in_time<T>(act: impl Fn() -> T) -> T {
     let begun = Instant::now();
     let result = act();
-    // Maybe something else had the processor.
+    // Another program may have had the processor.
     if begun.elapsed() > HANG { in_time_once(act) } else { result }
 }
 
@@ -379,7 +380,7 @@ fn in_time_once<T>(act: impl FnOnce() -> T) -> T {
     result
 }
 
-/// How long this thread has had a processor, where the system tells.
+/// How long this thread has had a processor, if the system tells.
 fn busy() -> Option<Duration> {
     let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(Duration::from_nanos(statistics.split_whitespace().next()?.parse().ok()?))

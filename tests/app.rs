@@ -375,7 +375,7 @@ fn winch(app: &Harness<'static, Tautline>, cable: usize) -> Pos2 {
     canvas.center() + Vec2::new(10.0 * scale * side, -5.0 * scale)
 }
 
-/// What a label says.
+/// The text of a label.
 fn text_of(node: &Node<'_>) -> String {
     let node = node.accesskit_node();
     node.label().or(node.value()).unwrap_or_default()
@@ -422,7 +422,7 @@ fn the_map_reads_what_the_core_says_and_a_click_moves_the_platform() {
     for (quantity, again) in [("Frequency", true), ("Cable", true), ("Growth rate", false), ("Critical speed", true)] {
         app.get_by_role_and_label(Role::ComboBox, "Map quantity").click();
         app.run_steps(3);
-        // The last of that name is the list's entry; a tab has the same name.
+        // A tab has the same name; the last one of that name is the entry of the list.
         let entry = app.get_all_by_label(quantity).last().expect("an entry").rect().center();
         click_at(&mut app, entry);
         app.run_steps(2);
@@ -461,7 +461,7 @@ fn a_map_can_be_cancelled_resumed_and_begins_anew_with_another_robot() {
     let expected = cold(&scenario).critical.expect("a critical speed").speed;
     assert!(rounds(&after, "critical speed ", expected), "{after} in place of {expected}");
 
-    // Switched off, nothing is computed.
+    // Nothing is computed while the map is switched off.
     app.get_by_role_and_label(Role::Button, "Map").click();
     app.run_steps(3);
     type_value(&mut app, "Young's modulus E", "210");
@@ -549,7 +549,7 @@ fn the_mesh_tells_its_error() {
     nothing_shows_nan(&app);
 }
 
-/// Without a plot of meshes being open: once the app is at rest it finds out by itself which digits are certain.
+/// Once the app is at rest it finds out which digits are certain, even if no plot of meshes is open.
 #[test]
 fn figures_show_what_is_certain_and_the_exact_number_on_hovering() {
     let mut app = app();
@@ -563,7 +563,7 @@ fn figures_show_what_is_certain_and_the_exact_number_on_hovering() {
     let text = label(&app, "m/s with 10 elements per cable. Finer meshes lead to ");
     assert!(text.starts_with(&format!("{exact} m/s")), "{text}");
     assert!(rounds(&text, "Finer meshes lead to ", 10.993), "{text}");
-    // A finer mesh makes more digits certain, a divergence fewer: its error falls as 1/n.
+    // A finer mesh makes more digits certain. A divergence makes fewer certain, since its error falls as 1/n only.
     type_value(&mut app, "Elements per cable n", "40");
     wait_for_label(&mut app, "by the mesh");
     let exact = report(&app).critical.expect("a critical speed").speed;

@@ -94,7 +94,7 @@ fn a_job_is_answered_with_pose_critical_speed_shape_curve_and_sensitivities() {
                 let found = found.expect("a simple crossing");
                 let knobs: Vec<_> = found.iter().map(|sensitivity| sensitivity.knob).collect();
                 assert_eq!(knobs, KNOBS);
-                // Of the values themselves tests/sensitivity.rs takes care.
+                // tests/sensitivity.rs checks the values themselves.
                 assert!(found.iter().all(|s| s.speed.abs() < 10.0 && s.frequency.is_some_and(f64::is_finite)));
                 seen[4] = true;
             }
@@ -152,7 +152,7 @@ fn sensitivities_are_left_out_for_a_newer_pose_and_their_absence_is_explained() 
     let mut engine = Engine::default();
     engine.submit(job(1, &paper_at(1.0), CRITICAL));
     while !engine.work().expect("work").iter().any(|reply| matches!(reply.update, Update::Curve(_))) {}
-    // All that is left of the first pose is its sensitivities.
+    // Only the sensitivities of the first pose are still to come.
     let mut undamped = paper_at(2.0);
     (undamped.damping.alpha, undamped.damping.beta) = (0.0, 0.0);
     engine.submit(job(2, &undamped, CRITICAL));
@@ -295,7 +295,7 @@ fn largest(linearisation: Linearisation) -> Scenario {
     scenario
 }
 
-/// So long takes a mode's shape, ten times: what slices are measured with, since machines differ and are busy.
+/// The time of ten mode shapes. Slices are measured in it, since machines differ and are busy.
 fn unit(scenario: &Scenario) -> Duration {
     let (robot, motion) = scenario.to_robot().expect("physical");
     let local = Local::new(&robot, &motion).map_err(|failure| failure.reason).expect("a pose");
@@ -306,8 +306,8 @@ fn unit(scenario: &Scenario) -> Duration {
     begun.elapsed()
 }
 
-/// All its modes take seconds or minutes, its search takes tenths of a second: none of it is done at a stretch. The slowest
-/// modes come at once, and are told to be that.
+/// All its modes take seconds or minutes, its search tenths of a second. Neither is done at a stretch. The slowest modes
+/// come at once, and the answer says that they are only the slowest.
 #[test]
 fn the_largest_robot_shows_its_slowest_modes_at_once_and_gives_way_after_any_slice() {
     for linearisation in [Linearisation::Secant, Linearisation::Tangent] {

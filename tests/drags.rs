@@ -1,4 +1,4 @@
-//! What a drag ends with is what a start in its last pose gives: answers do not depend on what was computed before.
+//! A drag ends with the answers that a start in its last pose gives: they do not depend on earlier computations.
 //!
 //! The engine is fed as the interface feeds it: some poses are dropped for newer ones, some are answered in full, some
 //! are infeasible.
@@ -16,7 +16,7 @@ use tautline::robot::Vec2;
 use tautline::scenario::Scenario;
 use tautline::{Motion, Robot};
 
-/// Up to this speed in m/s the critical speed is searched for.
+/// The critical speed is searched up to this speed, in m/s.
 const LIMIT: f64 = 15.0;
 /// The last pose's number.
 const LAST: Revision = 1000;
@@ -43,8 +43,8 @@ fn way() -> impl Strategy<Value = Vec<Place>> {
     prop::collection::vec(place, 12..36)
 }
 
-/// The replies to the last pose, without what is said on the way to them and without the time that they took: the curve of
-/// growth rates has fewer points where that is long, each found from the one before; it begins and ends the same.
+/// The replies to the last pose, without reports of progress and without times. If a spectrum takes long, the curve of
+/// growth rates has fewer points, each found from the one before; so only its beginning and its end are compared.
 fn answers(replies: Vec<Reply>) -> Vec<Update> {
     let last = replies.into_iter().filter(|reply| reply.revision == LAST).map(|reply| reply.update);
     let kept = last.filter(|update| !matches!(update, Update::Searching(_)));

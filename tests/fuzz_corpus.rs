@@ -1,5 +1,5 @@
-//! Bad input: whatever comes from outside is told or survives. Replays what fuzzing has found (`fuzz/`), and mutates
-//! inputs that are accepted. `tests/scenario.rs` and `tests/link.rs` mutate single scenarios and links in depth.
+//! Bad input: input from outside is refused with a reason or survives. These tests replay the inputs that fuzzing has found
+//! (`fuzz/`), and mutate accepted ones. `tests/scenario.rs` and `tests/link.rs` mutate single scenarios and links in depth.
 #![cfg(all(feature = "cli", feature = "compute", not(target_arch = "wasm32")))]
 
 #[path = "../fuzz/invariants.rs"]
@@ -30,7 +30,7 @@ fn the_corpus_is_told_or_survives() {
     for (name, target) in TARGETS {
         let files = inputs("corpus", name);
         let accepted = files.iter().filter(|path| replay(target, path)).count();
-        // Were everything refused at once, little would be tested.
+        // If everything were refused at once, little would be tested.
         assert!(accepted >= 5 && accepted < files.len(), "{name}: {accepted} of {} accepted", files.len());
     }
 }

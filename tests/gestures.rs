@@ -1,4 +1,4 @@
-//! What hands do: drags on slow machines, fingers, Esc. By raw events, as a backend sends them.
+//! Drags on slow machines, swipes of fingers, Esc: by raw events, as a backend sends them.
 
 #![cfg(feature = "app")]
 
@@ -24,13 +24,13 @@ fn button(pos: Pos2, pressed: bool) -> Event {
     Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers: Modifiers::default() }
 }
 
-/// All of this comes before the next frame, as it does where frames are slow.
+/// All these events come before the next frame, as on a machine with slow frames.
 fn in_one_frame(app: &mut App, events: impl IntoIterator<Item = Event>) {
     app.input_mut().events.extend(events);
     app.step();
 }
 
-/// In how few frames a drag may come.
+/// The ways in which a drag's events are spread over frames.
 const WAYS: [&str; 4] = ["all in one", "move and release in one", "released where it was not", "one by one"];
 
 /// Drags with the mouse.
@@ -156,7 +156,7 @@ fn sliders_values_and_panels_keep_the_end_of_a_drag_too() {
         assert!(speed > 20.0 && gravity > 10.5, "{way}: {speed} {gravity}");
         ends.push((speed, gravity));
     }
-    // What the last way gives, one event a frame, is what egui means.
+    // The last way has one event a frame, as egui expects; its result is the right one.
     let (speed, gravity) = ends[3];
     for ((other_speed, other_gravity), way) in ends.iter().zip(WAYS) {
         assert!((other_speed - speed).abs() < 0.1, "{way}: {ends:?}");
@@ -173,7 +173,7 @@ fn swipe(app: &mut App, from: Pos2, by: Vec2) {
         let at = from + by * (f32::from(step) / 10.0);
         in_one_frame(app, [Event::PointerMoved(at), touch(TouchPhase::Move, at)]);
     }
-    // It rests, so that nothing coasts on.
+    // The finger rests at the end, so that nothing goes on by its momentum.
     for _ in 0..12 {
         app.step();
     }
@@ -184,7 +184,7 @@ fn swipe(app: &mut App, from: Pos2, by: Vec2) {
 
 fn phone() -> App {
     let mut app = app_with(paper(), PHONE, Theme::Light);
-    // A first touch, beside everything, tells that there is a touch screen.
+    // A first touch, on no control, tells the app that there is a touch screen.
     swipe(&mut app, Pos2::new(350.0, 330.0), Vec2::ZERO);
     settle(&mut app);
     app
@@ -229,7 +229,7 @@ fn swipes_scroll(app: &mut App, expected: usize) {
             };
             let moved = place(&after) - from;
             if by < 0.0 && moved.y == 0.0 {
-                // Only at the page's end, where a swipe on nothing moves nothing either.
+                // A swipe may move nothing only at the page's end; there a swipe on no control moves nothing either.
                 swipe(app, Pos2::new(5.0, 700.0), Vec2::new(0.0, -60.0));
                 assert_eq!(place(&numbers(app)), from, "{role:?} {name}: the page does not scroll");
                 break;
@@ -512,7 +512,7 @@ fn no_meaning_is_for_the_mouse_alone() {
     assert!(found.is_empty() && meanings > 30, "{found:?}, {meanings}");
 }
 
-/// A robot at rest in the middle, moving so fast in the direction of so many degrees.
+/// The paper's robot at this position, moving at this speed in m/s in this direction in degrees.
 fn fast(speed: f64, degrees: f64, position: [f64; 2]) -> Scenario {
     let mut scenario = paper();
     let (sine, cosine) = degrees.to_radians().sin_cos();

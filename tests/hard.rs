@@ -1,8 +1,8 @@
-//! Robots at the ends of what is legal: each has a right answer or a named reason, never a panic, a number that is none,
-//! a hang, or a wrong number.
+//! Robots at the ends of what is legal. Each has a right answer or a named reason. None gives a panic, a NaN, a hang or a
+//! wrong number.
 //!
 //! `PROPTEST_CASES=20000 cargo test --release --test hard -- --nocapture` draws that many robots per family, and
-//! `PROPTEST_RNG_SEED` others; the shares of what became of them are printed.
+//! `PROPTEST_RNG_SEED` draws others. The test prints how many robots of each family ended in which way.
 
 mod common;
 
@@ -23,9 +23,9 @@ use tautline::scenario::presets;
 use tautline::stability::{CriticalSearch, Outcome};
 use tautline::{Local, Motion, Robot};
 
-/// Up to this speed in m/s the critical speed is searched for.
+/// The critical speed is searched up to this speed, in m/s.
 const LIMIT: f64 = 15.0;
-/// A case that takes longer than this, in s, hangs, on the slowest machine as well.
+/// A case that takes longer than this, in s, counts as a hang, on the slowest machine as well.
 const PATIENCE: f64 = 60.0;
 
 /// What became of the robots of a family, and how often.
@@ -111,13 +111,13 @@ fn name(reason: &StaticsError) -> &'static str {
     }
 }
 
-/// A reason says something, without a number that is none.
+/// A reason has words and no NaN.
 fn check_reason(reason: &StaticsError) {
     let sentence = reason.to_string();
     assert!(sentence.len() > 20 && !sentence.contains("NaN") && !sentence.contains("inf "), "{sentence}");
 }
 
-/// Statics are right or refused with a right reason; where they are right, the vibration.
+/// Checks that statics are right or refused with a right reason. If they are right, gives the vibration.
 fn judge_statics(robot: &Robot, motion: &Motion, tally: &mut Tally) -> Option<Local> {
     let found = mechanics::solve(robot, motion.position());
     match found {
@@ -226,7 +226,7 @@ fn extreme_vibrations_are_right_or_refused() {
     family("extreme vibrations", 150, extreme_robot(2..6), judge).check(0.05);
 }
 
-/// A cable's number that has nothing to do with the rest.
+/// The number of a cable, as good as random: it depends on the motion's speed alone.
 fn any_cable(spec: &RobotSpec, motion: &Motion) -> usize {
     (0..spec.cables.len()).max_by_key(|&i| (motion.speed() * (i + 1) as f64).fract().to_bits()).unwrap_or(0)
 }
@@ -269,12 +269,13 @@ fn with_a_vertical_cable() {
     family("vertical cable", 100, robots, judge).check(0.1);
 }
 
-/// A number with few digits, so that sums and differences of such numbers are exact.
+/// A number with few digits. Sums and differences of such numbers are exact.
 fn rounded(v: Vec2) -> Vec2 {
     v.map(|x| (x * 1024.0).round() / 1024.0)
 }
 
-/// The platform exactly in the middle between two anchors: no matter but for the equilibrium pair, which cannot hold it.
+/// The platform exactly in the middle between two anchors. This matters only if they are the equilibrium pair's, which
+/// cannot hold it there.
 #[test]
 fn on_the_line_between_two_anchors() {
     let robots = changed(extreme_robot(2..6), |spec, motion| {
@@ -298,8 +299,8 @@ fn on_the_line_between_two_anchors() {
     assert!(tally.of("infeasible: one line") > 0);
 }
 
-/// The platform beside the line between the equilibrium cables' anchors, down to a rounding of its position: there the
-/// side of the line is not known, and so no tension.
+/// The platform beside the line between the equilibrium cables' anchors, as near as the rounding of its position. There the
+/// side of the line is not known, so no tension is either.
 #[test]
 fn beside_the_line_of_the_equilibrium_cables() {
     let robots =
@@ -350,7 +351,7 @@ fn near_an_anchor() {
     assert!(tally.of("infeasible: at an anchor") > 0);
 }
 
-/// A prescribed tension slightly above and below the least one that carries the cable, which the energy tells.
+/// A prescribed tension slightly above and below the least one that carries the cable. The cable's energy gives that one.
 #[test]
 fn near_the_slack_limit() {
     let robots = (extreme_robot(2..9), -6.0..-0.5).prop_map(|((robot, motion), exponent): (_, f64)| {
@@ -365,7 +366,7 @@ fn near_the_slack_limit() {
     let judge = |robot: &Robot, motion: &Motion, tally: &mut Tally| {
         let i = robot.prescribed().next().expect("a prescribed cable");
         let chord = robot.cables[i].anchor - motion.position();
-        // In units in which the cable would weigh 100 were it as long as its chord.
+        // In units in which a cable as long as the chord weighs 100.
         let unit = 100.0 / (robot.weight_per_length() * chord.norm());
         let Some((length, least)) = Hung::of(robot).in_units(unit).least_tension(chord) else {
             return tally.count("limit not known");
@@ -395,8 +396,8 @@ fn moved(a: &Pose, b: &Pose) -> f64 {
     nodes(a).iter().zip(&nodes(b)).map(|(a, b)| (b - a).norm()).fold(0.0, f64::max)
 }
 
-/// Fails if nodes jump between two poses: what moves by much moves little in each part of the step. A jump stays what it
-/// is in one of two halves; a square root, as where a taut branch ends, falls to 1/64 in 12 halvings.
+/// Fails if nodes jump between two poses. If nodes move continuously, they move little in each part of the step. A jump
+/// keeps its size in one of the two halves. A square root, as at the end of a taut branch, falls to 1/64 in 12 halvings.
 fn check_no_jump(robot: &Robot, mut a: Pose, mut b: Pose) {
     let first = moved(&a, &b);
     for _ in 0..12 {
@@ -404,7 +405,7 @@ fn check_no_jump(robot: &Robot, mut a: Pose, mut b: Pose) {
         if moved(&a, &b) <= 3.0 * step.norm() {
             return;
         }
-        // Without a shape in the middle the poses belong to different parts of the workspace.
+        // If there is no shape in the middle, the poses belong to different parts of the workspace.
         let Some(middle) = pose(robot, a.position + 0.5 * step, step.normalize()) else { return };
         if moved(&a, &middle) > moved(&middle, &b) { b = middle } else { a = middle }
     }

@@ -99,8 +99,8 @@ fn one_point_is_in_the_middle_and_the_limit_is_kept() {
     assert_eq!(rows[0][8], "none");
 }
 
-/// Equal columns before them would be all the same: `feasible` is the statics' answer, and empty where they could not be
-/// computed; the rest is about the search.
+/// `feasible` is the answer of the statics, and empty if they could not be computed. The columns after it are about the
+/// search.
 #[test]
 fn rows_say_whether_a_critical_speed_was_found_and_why_not() {
     let row = |scenario: &Scenario, more: &[&str]| {
@@ -126,7 +126,7 @@ fn rows_say_whether_a_critical_speed_was_found_and_why_not() {
     assert!(text.contains("0 of 1 poses are feasible") && text.contains("1 could not be computed, marked ?"), "{text}");
 }
 
-/// A legal robot whose statics cannot be computed: it is as large as numbers are.
+/// A legal robot whose statics cannot be computed, since its size is at the end of the range of numbers.
 fn beyond_numbers() -> Scenario {
     let mut scenario = Scenario { gravity: 0.0, ..small() };
     for cable in &mut scenario.cables {
@@ -340,7 +340,7 @@ fn bad_sweeps_are_refused_before_any_row() {
     assert!(sweep(&["gravity=1:2:2", "gravity=3:4:2"])[0].contains("given twice"));
     let many = "damping.alpha=0:1:10000";
     assert!(sweep(&[many, &many.replace("alpha", "beta")])[0].contains("at most 10000000 rows"));
-    // Two numbers that are at fault only together; the fault is told with both, in every shard.
+    // Two numbers may be at fault only together. Every shard then tells the fault with both.
     let together = ["--set", "cables[0].anchor[0]=-10:10:2", "--set", "cables[0].anchor[1]=4:5:2"];
     for shard in ["1/4", "4/4"] {
         let lines = refuse(&[&["sweep", file.path(), "--csv", "--shard", shard][..], &together].concat(), "");

@@ -1,4 +1,4 @@
-//! Memory: none is taken per value of the characteristic function, and little for the largest robots.
+//! Memory: a value of the characteristic function takes none, and the largest robots take little.
 
 use nalgebra::Complex;
 use tautline::robot::{Cable, Linearisation, RobotSpec, TensionLaw, Vec2, paper_spec};
@@ -8,7 +8,7 @@ use tautline::{Local, Motion, Robot};
 #[global_allocator]
 static ALLOCATOR: dhat::Alloc = dhat::Alloc;
 
-/// The paper's robot with `cables` in all, those beyond its own with constant tensions, and the full stiffness.
+/// The paper's robot with `cables` cables and tangent stiffness. Cables beyond its own four have constant tensions.
 fn robot(elements: usize, cables: usize) -> Robot {
     let mut spec = RobotSpec { elements, linearisation: Linearisation::Tangent, ..paper_spec() };
     for (k, tension) in (spec.cables.len()..cables).zip([60.0, 65.0, 70.0, 75.0]) {
@@ -26,7 +26,7 @@ fn the_search_takes_no_memory_per_value_and_little_in_all() {
 
     let local = Local::new(&robot(10, 4), &motion).expect("a feasible pose");
     let function = Characteristic::new(&local.vibration);
-    // The test harness has threads of its own; what a value takes would be taken every time.
+    // The test harness has threads that allocate as well. Memory that a value needs would be allocated every time.
     let least = (0..20).map(|_| {
         let before = dhat::HeapStats::get().total_blocks;
         let values = (0..1000).map(|k| function.at(Complex::new(0.0, 0.02 * f64::from(k)), 8.0).by_lambda.norm());

@@ -1,4 +1,4 @@
-//! Panels: how wide they are is a person's choice alone, and nothing in them is out of reach.
+//! Panels: only a person changes their width, and nothing in them is out of reach.
 
 #![cfg(feature = "app")]
 

@@ -95,7 +95,7 @@ fn plain(answer: Answer) -> PlaceAnswer {
     }
 }
 
-/// What has come of each topic.
+/// The answers of each topic.
 #[derive(Default)]
 struct Seen {
     answers: BTreeMap<(Topic, Revision), BTreeMap<usize, PlaceAnswer>>,
@@ -205,7 +205,7 @@ fn a_study_takes_the_place_of_its_topics_older_one() {
     let mut watched = Watched::new();
     watched.pool.want(job(1, map(33, 17)));
     watched.until(|seen| !seen.places.is_empty());
-    // Of the same shape, so that places alone would not tell them apart.
+    // Both have the same places, so places alone would not tell them apart.
     let mut other = job(2, map(33, 17));
     let mut scenario = paper();
     scenario.motion.direction = [0.0, 1.0];

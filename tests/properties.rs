@@ -22,8 +22,9 @@ proptest! {
         check_statics(&robot, &found);
     }
 
-    /// L' and L'' against differences of the statics of order 4, whose own error is told by halving the step: it falls
-    /// to 1/16, so the finer one is off by 1/15 of what the two differ by, or somewhat more where the next order counts.
+    /// L' and L'' against differences of the statics of order 4. Halving the step tells the error of these: it falls to
+    /// 1/16, so the finer difference is off by 1/15 of the distance between the two, or somewhat more if the next order
+    /// counts.
     #[test]
     fn length_rates_are_derivatives_of_the_lengths((robot, motion) in moving_robot(2..25)) {
         let h = 0.005;
@@ -73,8 +74,8 @@ proptest! {
             close(back[i].first, -rate.first, 0.0, "L' backwards");
             close(back[i].second, rate.second, 0.0, "L'' backwards");
             let j = rates.len() - 1 - i;
-            // Where the equilibrium cables pull nearly along one line, or a taut branch is about to end, derivatives
-            // lose digits: a few thousand random robots lose at most 5 of L' and 9 of L''. A wrong sign costs all.
+            // If the equilibrium cables pull nearly along one line, or a taut branch is about to end, derivatives lose
+            // digits. A few thousand random robots lose at most 5 digits of L' and 9 of L''. A wrong sign would lose all.
             let size = (1.0 + rate.first.abs() + rate.second.abs()).powi(2);
             for (what, other) in [("for a longer direction", scaled[i]), ("in the mirror", mirror_rates[j])] {
                 close(other.first, rate.first, 1e-11 * size, format_args!("L' {what}"));
@@ -123,7 +124,7 @@ proptest! {
         }
     }
 
-    /// Close to the least tension that carries a cable there is a slack shape near by, which Newton's method may find.
+    /// Close to the least tension that carries a cable, a slack shape is near the taut one, and Newton's method may find it.
     #[test]
     fn the_taut_branch_is_kept_up_to_its_end((robot, motion) in moving_robot(2..25), exponent in -6.0..-0.5) {
         let i = robot.prescribed().next().expect("a prescribed cable");

@@ -15,12 +15,12 @@ use tautline::{Local, Motion, Robot};
 
 /// Only critical speeds above this one, in m/s, are compared.
 const SLOWEST: f64 = 0.5;
-/// Critical speeds and frequencies are good to this part of them: a scan refines to 1e-9 m/s (the search by structure to
-/// far less) and gives the middle, half of that off; frequencies change about as much as speeds do, at most twice.
+/// The relative error of critical speeds and frequencies. A scan refines to 1e-9 m/s and gives the middle, so it is off by
+/// half of that; the search by structure is off by far less. Frequencies change about as much as speeds, at most twice.
 const SEARCHED: f64 = 2.0 * 0.5e-9 / SLOWEST;
 /// The smallest step of the differences in ln p.
 const STEP: f64 = 1e-3;
-/// Up to this speed in m/s critical speeds are searched for.
+/// Critical speeds are searched up to this speed, in m/s.
 const LIMIT: f64 = 40.0;
 
 fn critical(robot: &Robot, motion: &Motion) -> Option<Critical> {
@@ -53,11 +53,11 @@ fn turned(robot: &Robot, knob: Knob, s: f64) -> Robot {
     Robot::new(spec).expect("a robot")
 }
 
-/// d ln v/d ln p and d ln ω/d ln p by Richardson's extrapolation of central differences over h and 2h, each with what it
-/// may be off: the noise of the searches over h (the weights are 4/3 · 1/2h twice and 1/3 · 1/4h twice), and of the
-/// truncation. That is of h⁴ and a fifteenth of what the extrapolation over 2h and 4h differs by; that difference bounds it
-/// for as long as half the step leaves no more than half of it, which steps too large for a curve's bends do as well.
-/// `None` where another mode crosses first somewhere.
+/// d ln v/d ln p and d ln ω/d ln p by Richardson's extrapolation of central differences over h and 2h, each with a bound of
+/// its error. The error has two parts. One is the noise of the searches over h: the weights are 4/3 · 1/2h twice and
+/// 1/3 · 1/4h twice. The other is the truncation, of order h⁴: a fifteenth of the difference to the extrapolation over 2h
+/// and 4h. The whole difference bounds the truncation if half the step leaves no more than half of it, which holds even for
+/// steps that are too large for the curve's bends. `None` if another mode crosses first somewhere.
 fn differences(robot: &Robot, motion: &Motion, at: &Critical, knob: Knob) -> Option<[(f64, f64); 2]> {
     let mut logarithms = [[0.0; 2]; 6];
     for (k, step) in [-4.0, -2.0, -1.0, 1.0, 2.0, 4.0].into_iter().enumerate() {
@@ -134,10 +134,10 @@ fn of_random_robots_they_are_what_differences_give() {
     assert!(compared.get() > 100, "only {} were compared", compared.get());
 }
 
-/// What units demand, for the speed and the frequency. In a unit of mass 1/s as large, E, μ, m and all tensions have s
-/// times their values, and nothing else changes. In a unit of time s times as long, E, the tensions and g have s² times
-/// their values, α has s times, β 1/s times, and speeds and frequencies have s times theirs. E and A are in EA only.
-/// Where the crossing has an answer at all.
+/// Checks the sums that units demand, for the speed and the frequency. In a unit of mass 1/s as large, the values of E, μ,
+/// m and all tensions are s times as large, and nothing else changes. In a unit of time s times as long, the values of E,
+/// the tensions and g are s² times as large, α is s times, β 1/s times, and speeds and frequencies are s times as large. E
+/// and A occur in EA only. Tells whether the crossing has derivatives.
 fn check_units(robot: &Robot, motion: &Motion) -> bool {
     let Some(at) = critical(robot, motion).filter(|critical| critical.speed > SLOWEST) else { return false };
     let Ok(all) = sensitivities(robot, motion, &at) else { return false };
@@ -194,9 +194,9 @@ fn without_damping_there_is_nothing_to_turn() {
     assert_eq!(sensitivities(&robot, &motion, &at), Err(NoSensitivity::FromRest));
 }
 
-/// Cables 3 and 4 are each other's mirror image and know of each other through the platform alone, which does not move
-/// where it is a hundred million times as heavy as they are. Turning one tension lets that cable cross first, whichever
-/// way: the critical speed has a kink.
+/// Cables 3 and 4 are each other's mirror image. Only the platform couples them, and one that is a hundred million times as
+/// heavy as the cables does not move. A change of one tension, up or down, lets one of the cables cross first: the critical
+/// speed has a kink.
 #[test]
 fn two_modes_that_cross_together_have_no_derivative() {
     let (platform_mass, youngs_modulus) = (4e8, 1e20);

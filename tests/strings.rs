@@ -1,6 +1,6 @@
 //! Strings, for which exact solutions exist: travelling between fixed ends, and changing in length.
 //!
-//! The element matrices are the crate's own; what they are assembled into and compared with is not.
+//! The element matrices are the crate's. They are assembled, and compared with exact solutions, by other code.
 
 mod common;
 

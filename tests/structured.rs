@@ -1,7 +1,7 @@
-//! The structured solver against a dense one that shares nothing with it, on random robots.
+//! The structured solver against a dense one that shares no code with it, on random robots.
 //!
-//! `TAUTLINE_ROBOTS=1000 cargo test --release --test structured` checks that many instead of the usual few, and scans
-//! the large ones as well; `TAUTLINE_SEED=n` begins with robot n. `-- --nocapture` shows what was left to a scan.
+//! `TAUTLINE_ROBOTS=1000 cargo test --release --test structured` checks that many robots and scans the large ones as well.
+//! `TAUTLINE_SEED=n` begins with robot n. `-- --nocapture` shows which critical speeds were left to a scan.
 
 mod common;
 
@@ -21,22 +21,22 @@ use tautline::{Local, Motion, Robot};
 
 /// The usual number of robots.
 const ROBOTS: u64 = 30;
-/// Up to this speed in m/s the critical speed is searched for.
+/// The critical speed is searched up to this speed, in m/s.
 const LIMIT: f64 = 20.0;
-/// Speeds in m/s at which all eigenvalues are wanted, in this order.
+/// All eigenvalues are computed at these speeds in m/s, in this order.
 const SPEEDS: [f64; 4] = [1.0, 1.5, 6.0, 0.0];
-/// Beyond this many eigenvalues only a full run scans; else the referee looks at a few speeds.
+/// With more eigenvalues than this, the referee scans in a full run only; otherwise it looks at a few speeds.
 const USUAL: usize = 100;
-/// Seeds of robots that were answered wrongly, or seemed to be, once; of the last two, all modes are overdamped to an
-/// extent at which a dense solver may not converge.
+/// Seeds of robots that once had a wrong answer, or seemed to. All modes of the last two are so overdamped that a dense
+/// solver may not converge.
 const FIXED: [u64; 3] = [5664, 5270, 5949];
 
-/// Robots of which the iteration, mostly begun at another speed's eigenvalues, once gave one close to −1/β that was
-/// further off than its last step.
+/// Seeds of robots for which the iteration once gave an eigenvalue close to −1/β that was further off than its last step.
+/// In most cases it had begun at the eigenvalues of another speed.
 const CROWDED: [u64; 8] = [5, 70, 131, 172, 241, 509, 658, 956];
 
-/// Robots of which an estimate once met an eigenvalue exactly, where elimination ends in a singular pivot, and was kept a
-/// little beside it.
+/// Seeds of robots for which an estimate once met an eigenvalue exactly. Elimination then ends in a singular pivot, and the
+/// estimate stayed a little beside the eigenvalue.
 const MET: [u64; 7] = [151, 303, 510, 612, 788, 918, 995];
 
 /// Uniform numbers by `SplitMix64`.
@@ -131,7 +131,7 @@ fn seeds() -> Vec<u64> {
     FIXED.into_iter().chain(first..first + count).collect()
 }
 
-/// Calls `judge` with these robots, on all cores; what it says, by seed.
+/// Calls `judge` with the robots of these seeds, on all cores. Gives its answers by seed.
 fn for_each_robot<T: Send>(seeds: &[u64], judge: impl Fn(Robot, Local) -> T + Sync) -> Vec<(u64, T)> {
     let (next, verdicts) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let work = || {
@@ -164,7 +164,7 @@ fn the_critical_speed_is_that_of_the_dense_scan() {
         let scan = drawn.referee.size() <= USUAL || is_full_run();
         (doubt, judge_critical_speed(&drawn, LIMIT, scan), drawn.robot.damping)
     });
-    // The fixed ones are there for being difficult.
+    // The fixed seeds are difficult on purpose.
     let drawn = || verdicts.iter().filter(|(seed, _)| !FIXED.contains(seed));
     let scanned: Vec<(u64, Doubt)> =
         drawn().filter_map(|(seed, (doubt, ..))| doubt.map(|doubt| (*seed, doubt))).collect();
@@ -185,7 +185,7 @@ fn the_critical_speed_is_that_of_the_dense_scan() {
     assert!(not_judged * 50 <= count.max(100), "{not_judged} of {count} not judged");
 }
 
-/// What was left to a scan as text: how often for each reason, and which robots.
+/// How often each reason left a critical speed to a scan, and for which robots, as text.
 fn by_kind(scanned: &[(u64, Doubt)]) -> String {
     let mut kinds: Vec<(Doubt, Vec<u64>)> = Vec::new();
     for &(seed, doubt) in scanned {
@@ -198,10 +198,11 @@ fn by_kind(scanned: &[(u64, Doubt)]) -> String {
     format!("{}{}", scanned.len(), each.collect::<String>())
 }
 
-/// Robots of the usual kind for which an answer is looked for, without a referee.
+/// So many robots of the usual kind are analysed without a referee.
 const ANSWERED: u64 = 300;
 
-/// Whatever its damping, every robot's critical speed is found, or none up to the limit, and at most one of 200 by a scan.
+/// Whatever the damping, the search ends with a critical speed or with none up to the limit. At most one of 200 is by a
+/// scan.
 #[test]
 fn no_damped_robot_is_left_unknown() {
     let seeds = if is_full_run() { seeds() } else { (0..ANSWERED).collect() };
@@ -225,7 +226,7 @@ fn no_damped_robot_is_left_unknown() {
     assert!(scanned.len() * 200 < damped.len(), "{scanned:?} of {} damped robots", damped.len());
 }
 
-/// Mass damping leaves all 1588 modes of this robot near the axis, but at λ = 0 it has no part: the divergence is the
+/// Mass damping leaves all 1588 modes of this robot near the axis. At λ = 0 damping has no part, so the divergence is the
 /// same with any damping, and bounds the search from above.
 #[test]
 fn a_divergence_does_not_need_a_scan() {
@@ -255,8 +256,8 @@ fn a_divergence_does_not_need_a_scan() {
     }
 }
 
-/// Robots with mass damping alone and speeds (m/s) at which many eigenvalues are far nearer to the axis than to each other:
-/// so evenly spaced ones once passed for turns of the phase that were none.
+/// Seeds of robots with mass damping alone, with speeds (m/s) at which many eigenvalues are far nearer to the axis than to
+/// each other. The count once missed eigenvalues that are spaced so evenly.
 const NEAR_THE_AXIS: [(u64, [f64; 3]); 5] = [
     (46, [11.75, 12.35, 12.37]),
     (395, [3.64, 5.38, 5.39]),
@@ -343,7 +344,7 @@ fn check_eigenvalues(seeds: &[u64]) {
     for (seed, verdicts) in &verdicts {
         for verdict in verdicts {
             match verdict {
-                // The fixed ones are there for being difficult.
+                // The fixed seeds are difficult on purpose.
                 None if FIXED.contains(seed) => {}
                 None => undecided.push(seed),
                 Some(Verdict::Right) => {}
@@ -377,7 +378,7 @@ fn eigenvalues_that_are_met_exactly_are_kept() {
     check_eigenvalues(&MET);
 }
 
-/// A scan that ends at a crossing meets growth that is nothing but rounding, on either side of zero.
+/// Close to a crossing a scan meets growth rates that are only rounding, on either side of zero.
 #[test]
 fn a_search_up_to_the_critical_speed_has_an_answer() {
     let robot = Robot::new(paper_spec()).expect("physical");

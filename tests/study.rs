@@ -1,5 +1,5 @@
-//! Studies: their tasks are what the analysis of one pose gives, in an order that makes a picture finer; modes are
-//! joined over the speeds; the limit of fine meshes is right.
+//! Studies: each place has the answer of the analysis of its pose, the order makes a picture finer, modes are joined over
+//! the speeds, and the limit of fine meshes is right.
 
 mod common;
 
@@ -132,8 +132,8 @@ fn what_is_no_pose_is_infeasible() {
     assert_eq!(study.answer(&robot, 1), Answer::Spectrum(Err(NoAnswer::Infeasible)));
 }
 
-/// Every index once; what a picture of half the resolution needs comes first, and what one of a quarter needs before
-/// that.
+/// Every index comes once. A picture of a quarter of the resolution comes first, then what half the resolution adds, then
+/// the rest.
 #[test]
 fn orders_are_coarse_first() {
     let robot = paper().expect("the paper's robot");
@@ -513,7 +513,7 @@ fn divergence(speed: f64) -> Verdict {
     Verdict::Critical(Critical { speed, eigenvalue: C64::new(0.0, 0.0), kind: Kind::Divergence, cable: 3 })
 }
 
-/// The limit is between what the order seen and the known one promise.
+/// The limit is between the one that the order seen promises and the one that the known order promises.
 fn holds(found: &Extrapolation, limit: f64) -> bool {
     (found.limit - limit).abs() <= found.uncertainty
 }
@@ -538,7 +538,7 @@ fn richardson_finds_order_and_limit() {
         if (order - known).abs() < 1e-12 {
             close(found.limit, 10.0, 1e-8, "limit");
         }
-        // The whole of what extrapolation adds is more than what is in doubt where the orders agree by a third.
+        // If the orders agree within a third, the uncertainty is less than all that extrapolation adds.
         let added = (law(80) - found.limit).abs();
         assert!((order / known - 1.0).abs() > 0.1 || found.uncertainty < 0.3 * added, "order {order}: {found:?}");
         close(found.error.expect("an error"), law(10) - found.limit, 1e-12, "error");
@@ -571,7 +571,7 @@ fn richardson_finds_order_and_limit() {
     let found = limit(&same, 10);
     assert_eq!((found.limit, found.order, found.estimated, found.error), (4.0, 2.0, false, Some(0.0)));
     assert!(found.uncertainty > 0.0 && found.uncertainty < 1e-6, "{found:?}");
-    // Of the frequency the same is told.
+    // The same holds for the frequency.
     let meshes = [10, 20, 40].map(|n| (n, flutter(4.0 + 1.0 / (n * n) as f64, 0.3 - 0.5 / (n * n) as f64, 3)));
     let frequency = limit(&meshes, 10).frequency;
     close(frequency.limit, 0.3, 1e-9, "frequency");
@@ -638,9 +638,9 @@ fn wave_limit(robot: &Robot, motion: &Motion) -> f64 {
     local.statics.cables.iter().zip(&local.rates).map(of_cable).fold(f64::INFINITY, f64::min)
 }
 
-/// Of random robots the limits that coarse meshes promise hold what is known better: of a divergence the speed at which
-/// the flow reaches the waves', of flutter what finer meshes promise. Where modes change between meshes there is no
-/// promise.
+/// The limits that coarse meshes of random robots promise, with their uncertainty, hold the better known value. For a
+/// divergence that is the speed at which the flow reaches the waves; for flutter it is the limit of finer meshes. If modes
+/// change between meshes there is no promise.
 #[test]
 fn error_bars_hold_the_limit() {
     let mut runner = TestRunner::new(config(1));
@@ -669,7 +669,7 @@ fn error_bars_hold_the_limit() {
         };
         let off = (found.limit - expected).abs();
         assert!(off <= found.uncertainty + more, "{expected} m/s is not in {found:?}: {robot:?} {motion:?}");
-        // A bar as wide as what the finest mesh is off would be none.
+        // An error bar as wide as the finest mesh's error would tell nothing.
         let finest = found.error.expect("an error").abs();
         assert!(found.uncertainty < 0.5 * finest + 1e-6 * expected, "{found:?}");
         counts[wanted] += 1;

@@ -153,7 +153,7 @@ fn a_dropped_scenario_is_opened_and_the_one_before_comes_back_with_undo() {
     drop_file(&mut app, "other.json", other.to_json().as_bytes());
     assert_eq!(*app.state().scenario(), other);
     assert_eq!(report(&app), interface::cold(&other));
-    // Values reset to those of the file.
+    // A reset gives back the values of the file.
     type_value(&mut app, "Gravity g", "9");
     choose(&mut app, "Edit", "Reset all values");
     assert_eq!(app.state().scenario().gravity, 1.62);
@@ -227,7 +227,7 @@ fn a_pasted_scenario_is_opened() {
 #[test]
 fn a_pasted_text_may_begin_with_a_mark() {
     let mut app = app();
-    // What stands before links is no reason to take a scenario for one.
+    // A scenario that holds the text before a link is not a link.
     let other = Scenario { name: Some("As in …/#s=1".into()), ..presets::PRESETS[1].scenario() };
     app.event(Event::Paste(format!("\u{feff}{}", other.to_json())));
     settle(&mut app);
@@ -256,8 +256,9 @@ fn a_dropped_file_may_be_utf_16_with_a_mark() {
 fn a_dropped_file_that_is_too_large_is_refused_without_being_read() {
     let mut app = app();
     let file = OnDisk::new("film.json", b"");
-    // Most file systems give it no room on the disk; that of Windows gives it all of it, so it is not larger.
-    std::fs::OpenOptions::new().write(true).open(&file.path).unwrap().set_len(1 << 30).unwrap();
+    // Larger than the memory. Most file systems give it no room on the disk; the one of Windows does, so there it is smaller.
+    let size = if cfg!(windows) { 1 << 30 } else { 1 << 40 };
+    std::fs::OpenOptions::new().write(true).open(&file.path).unwrap().set_len(size).unwrap();
     file.drop_on(&mut app);
     interface::wait(&mut app, "a message", |app| app.notice().is_some());
     assert_eq!(app.state().notice(), Some("film.json is larger than 1 MB, which no scenario is."));
@@ -270,7 +271,7 @@ fn a_dropped_file_that_is_too_large_is_refused_without_being_read() {
 fn a_dropped_file_is_read_while_the_window_goes_on() {
     let mut app = app();
     let file = OnDisk::new("slow.json", b"");
-    // Whoever reads a pipe waits until somebody writes; so do disks that are asleep, and networks.
+    // A read from a pipe waits until somebody writes, like a read from a sleeping disk or from a network.
     std::fs::remove_file(&file.path).unwrap();
     assert!(std::process::Command::new("mkfifo").arg(&file.path).status().unwrap().success());
     let (go, wait) = std::sync::mpsc::channel();
@@ -473,7 +474,7 @@ fn unpinning_stops_the_pinned_designs_study() {
     interface::wait(&mut app, "the pinned design", |app| app.pinned().is_some_and(|(_, complete)| complete));
     app.get_by_role_and_label(Role::Button, "Directions").click();
     app.run_steps(3);
-    // The same study, so it is remembered; another one is only the pinned design's.
+    // The same study is remembered; the other one belongs to the pinned design.
     type_value(&mut app, "Elements per cable n", "4");
     interface::wait(&mut app, "the present design's study", |app| app.study(Topic::Polar).2);
     interface::wait(&mut app, "the pinned design's study", |app| app.at_work().contains(&Topic::Polar));

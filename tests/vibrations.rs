@@ -78,7 +78,7 @@ fn check_spectrum(robot: &Robot, motion: &Motion, local: &Local, dense: &Dense, 
     let squares: Vec<C64> = eigenvalues.iter().map(|l| l * l).collect();
     for (what, values, expected) in [("eigenvalues", &eigenvalues, sum), ("squares", &squares, sum_of_squares)] {
         let (total, size): (C64, f64) = (values.iter().sum(), values.iter().map(|l| l.norm()).sum());
-        // A backward stable solver leaves the traces as they are but for rounding.
+        // A backward stable solver changes the traces by rounding only.
         close((total - expected).norm(), 0.0, 1e-12 * size, format_args!("sum of the {what}"));
     }
 
@@ -86,8 +86,8 @@ fn check_spectrum(robot: &Robot, motion: &Motion, local: &Local, dense: &Dense, 
         for polarisation in [Polarisation::X, Polarisation::Y] {
             let mode = mode(&local.vibration, motion.speed(), value.eigenvalue, polarisation);
             let (residual, slope, size) = dense.residual(value.eigenvalue, &unknowns(&mode));
-            // An eigenvalue is known to rounding of the fastest one, a shape to that of the stiffest spring times what
-            // elimination without pivoting costs where the flow makes modes steep.
+            // An eigenvalue is known to the rounding of the fastest one. A shape is known to the rounding of the stiffest
+            // spring, times the digits that elimination without pivoting loses if the flow makes modes steep.
             let allowed = 1e-12 * top * slope + 1e-9 * size;
             close(residual, 0.0, allowed, format_args!("residual of the mode at {}", value.eigenvalue));
             check_shares(robot, local, &mode);

@@ -11,8 +11,8 @@ use tautline::Robot;
 use tautline::mechanics::{self, Infeasible, StaticsError};
 use tautline::robot::{Vec2, paper};
 
-/// Checks a grid of poses from corner to corner, every `thorough`-th of the infeasible ones thoroughly; how many poses
-/// have a shape.
+/// Checks a grid of poses from corner to corner; every `thorough`-th of the infeasible ones is checked thoroughly. Gives how
+/// many poses have a shape.
 fn check_grid(robot: &Robot, corners: [Vec2; 2], columns: u32, rows: u32, thorough: u32) -> u32 {
     let size = corners[1] - corners[0];
     let at = |i: u32, j: u32| {

@@ -7,8 +7,8 @@
     const failure = document.getElementById("tautline-error");
     let started = false;
 
-    // Whoever has this page in a frame may be typing elsewhere: nothing here can take the focus until the app has started,
-    // which else takes it then. A click gives it, as to everything.
+    // In a frame of another page the user may be typing elsewhere. So the page is inert until the app has started;
+    // otherwise the app would take the focus then. Afterwards a click gives it the focus, as usual.
     document.body.inert = window.self !== window.top;
 
     const copy = document.getElementById("tautline-copy");
@@ -36,8 +36,8 @@
         return (name, text) => add(failure, name, text);
     }
 
-    // What the app showed last. A program that stopped still answers, unless it stopped while it wrote this down; then
-    // there is what it kept for the next start, if the browser lets it keep anything.
+    // The scenario on show. A program that has stopped still answers, unless it stopped while it was changing the scenario.
+    // Then the storage has the one that was kept for the next start, if the browser keeps anything.
     function lastScenario() {
         try {
             return JSON.stringify(window.tautline.scenario(), null, 2);
@@ -51,7 +51,7 @@
         return null;
     }
 
-    // A reload keeps the state of the page's entry in the history, even where nothing else may be kept.
+    // A reload keeps the state of the page's entry in the history, even if the browser keeps nothing else.
     function restart(scenario) {
         history.replaceState({ scenario }, "");
         location.reload();
@@ -102,12 +102,13 @@
         } catch { /* plain http, a private window, storage that is blocked: the app works, with a network */ }
     }
 
-    // The app draws into this context, since a canvas has only one. Shapes come with smooth edges of their own: without
-    // a browser's smoothing and blending with the page a frame takes two thirds of the time where there is no graphics card.
+    // The app draws into this context, since a canvas has only one. The app's shapes have smooth edges of their own. So the
+    // browser need not smooth them or blend them with the page; without a graphics card a frame then takes two thirds of
+    // the time.
     const drawing = () => canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, stencil: false });
 
-    // Browsers take the graphics card away when it fails, or when too many pages want it. What was drawn with it is gone;
-    // a fresh start is the sure way to have all of it again.
+    // Browsers take the graphics card away when it fails, or when too many pages want it. All that was drawn with it is
+    // gone. A fresh start is the sure way to have it again.
     canvas.addEventListener("webglcontextlost", (event) => {
         event.preventDefault(); // or it would not be given back
         if (!failure.hidden) return;

@@ -21,7 +21,7 @@ if ! [[ $port =~ ^[1-9][0-9]{0,4}$ ]] || [ "$port" -gt 65535 ]; then
     echo "The port must be a number from 1 to 65535, not \"$port\"." >&2
     exit 2
 fi
-# Better said now than after minutes of building.
+# The build takes minutes, so this is tried before it.
 if [ -z "$build_only" ] && (exec 3<>"/dev/tcp/127.0.0.1/$port") 2>/dev/null; then
     echo "Port $port is in use on this machine. Try another: web/serve.sh --port $((port % 65535 + 1))" >&2
     exit 1

@@ -14,12 +14,12 @@
 //   are deleted when the new service worker becomes active, and the browser waits with that (there is no skipWaiting)
 //   until no page is open that the old one serves. Till then the old one serves pages of both builds, by address.
 // - A first visit: the page registers this when the app runs. The files come out of the browser's own cache, if the
-//   server lets it keep or revalidate them. `claim` lets this first page, too, start workers offline.
+//   server lets the browser keep or revalidate them. `claim` lets this first page start workers offline as well.
 // - The site moves, or sw.js breaks: the browser goes on with the old one, which shows the page that the server has.
 // - The browser keeps nothing (private windows, storage full or blocked, plain http): registration or install fails, or
 //   `find` finds nothing, and everything comes from the network.
-// A page loaded past the service worker (Shift and reload) is as one without it: once its build is gone from the server,
-// files that it still lacks are missing. It says so; it never gets those of another build.
+// A page that was loaded past the service worker (Shift and reload) behaves as if there were none. Once its build is gone
+// from the server, files that it has not loaded yet are missing. It says so, and never gets those of another build.
 
 /** A page from the network that takes longer than this, in ms, comes from the cache. */
 const PATIENCE = 3000;

@@ -34,7 +34,7 @@ debian_is_ready() {
 rustup_adds_target() {
     command -v rustup >/dev/null || return 1
     echo "Adding the target $target to the active Rust toolchain …" >&2
-    # Out of reach of the server rustup would try for minutes.
+    # If it cannot reach its server, rustup would try for minutes.
     local limit=()
     if command -v timeout >/dev/null; then limit=(timeout 30); fi
     RUST_BACKTRACE=0 RUSTUP_MAX_RETRIES=1 ${limit[@]+"${limit[@]}"} rustup target add "$target" >&2 && has_target
@@ -47,7 +47,8 @@ install_debian() {
     "$here/packages.sh" rustc-web cargo-web rust-web-src && "$here/packages.sh" "lld-$(llvm)" && debian_is_ready
 }
 
-# Two numbers at a time, for the elimination along two cables; every browser with WebGL 2 that is kept up to date has it.
+# Instructions on two numbers at a time, for the elimination along two cables. Every browser that has WebGL 2 and is kept
+# up to date has them.
 export CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS="-C target-feature=+simd128"
 
 if has_target; then exec "$@"; fi

@@ -30,7 +30,7 @@ impl Hung {
         }
     }
 
-    /// The same cable with all forces in another unit, `factor` of which are one newton: shapes do not know the difference.
+    /// The same cable with all forces times `factor`. Its shapes are the same.
     pub fn in_units(self, factor: f64) -> Self {
         Self { stiffness: self.stiffness * factor, weight: self.weight * factor, ..self }
     }
@@ -95,7 +95,7 @@ impl Hung {
             }
             (value, gradient, hessian)
         };
-        // Along the chord at the cable's middle, as taut as makes the least energy.
+        // Along the chord at the cable's middle, with the tension of least energy.
         let straight = self.law((chord.norm() / length).max(1.0)).0;
         let start = |pull: f64| chord.normalize() * (straight + pull) - Vec2::new(0.0, 0.5 * self.weight * length);
         let starts = (-8..=16).map(|k| start(self.weight * length * 1.6_f64.powi(k)));

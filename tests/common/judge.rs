@@ -13,26 +13,26 @@ type C64 = Complex<f64>;
 
 /// The step of the referee's scan in m/s.
 const STEP: f64 = 0.05;
-/// Where the referee does not scan it looks at so many speeds.
+/// A referee that does not scan looks at this many speeds.
 const FEW: u32 = 8;
-/// Critical speeds agree to this, in m/s, and to the referee's rounding.
+/// Critical speeds agree to this plus the referee's rounding, in m/s.
 const AGREEMENT: f64 = 1e-6;
-/// Where the referee's rounding may move a crossing by more than this, in m/s, it is judged by the growth rates so far
-/// from it, if they agree.
+/// If the referee's rounding may move a crossing by more than this, in m/s, the growth rates at this distance from the
+/// crossing judge it, if they agree.
 const CERTAIN: f64 = 1e-2;
 /// Without damping, growth rates up to this part of the largest frequency count as zero (docs/theory.md section 8).
 const UNDAMPED: f64 = 1e-10;
 /// Shares of the kinetic energy nearer than this are a tie.
 const TIE: f64 = 1e-6;
-/// An eigenvalue that rounding may move by this part of it is judged by its residual as well.
+/// An eigenvalue that rounding may move by this part of itself is judged by its residual as well.
 const ILL: f64 = 1e-6;
 /// A crossing is looked at from this part of its speed below and above.
 const ASIDE: f64 = 1e-4;
-/// In so many steps.
+/// The eigenvalue that crosses is followed in this many steps.
 const STEPS: u32 = 8;
 /// The last step of the iteration for all eigenvalues is at most this part of each, where rounding is small.
 const CONVERGED: f64 = 1e-9;
-/// Of an extreme robot's eigenvalues so many digits are promised.
+/// The relative error that is promised for an extreme robot's eigenvalues.
 const PROMISED: f64 = 1e-6;
 
 /// A robot with its referee.
@@ -50,7 +50,7 @@ impl Drawn {
     }
 }
 
-/// What a comparison tells.
+/// The result of a comparison.
 pub enum Verdict {
     /// The answer is right.
     Right,
@@ -166,7 +166,7 @@ fn bisect(drawn: &Drawn, mut stable: f64, mut unstable: f64) -> Option<f64> {
 pub fn judge_critical_speed(drawn: &Drawn, limit: f64, scan: bool) -> Verdict {
     let Ok(outcome) = drawn.local.critical_speed(limit) else { return Verdict::Wrong("no answer".into()) };
     let (end, exact) = match &outcome {
-        // Without damping, whatever grows does so from rest on.
+        // Without damping, a mode that grows does so from rest on.
         Outcome::Found(critical) if critical.speed == 0.0 => {
             return match surely_grows(drawn, STEP) {
                 Some(true) => Verdict::Right,
@@ -199,7 +199,7 @@ pub fn judge_critical_speed(drawn: &Drawn, limit: f64, scan: bool) -> Verdict {
         }
         if grows && speed > end && matches!(outcome, Outcome::Found(_)) {
             let Some(crossing) = bisect(drawn, before, speed) else { return Verdict::no_referee(speed) };
-            // A later one is another: the referee has seen a return in between, and judged the earlier one above.
+            // A later crossing is another one: the referee has seen a return in between, and judged the earlier one above.
             let missed = crossing < end - exact;
             return if missed { Verdict::Wrong(format!("{outcome:?}, scan {crossing}")) } else { Verdict::Right };
         }
@@ -216,7 +216,7 @@ fn allowed(known: &[Known]) -> Vec<(f64, bool)> {
     let one = |j: usize| {
         let others = known.iter().enumerate().filter(|&(k, _)| k != j);
         let second: f64 = others.map(|(_, other)| other.error / (other.lambda - known[j].lambda).norm()).sum();
-        // Not a number where two are the same.
+        // This is NaN if two eigenvalues are the same.
         let apart = second <= 1.0;
         let allowed = known[j].error * if apart { 2.0 } else { known.len() as f64 };
         (allowed, !apart || allowed > ILL * known[j].lambda.norm())

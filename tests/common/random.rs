@@ -122,7 +122,7 @@ fn decades(exponents: Range<f64>) -> impl Strategy<Value = f64> {
 
 /// A robot at the ends of what is legal, with a pose: EA from 10 N to 1e10 N, μ from 1e-6 to 100 kg/m, m from 1e-6 to
 /// 1e6 kg, one in three without gravity, without α, without β; prescribed tensions from a thousandth to ten thousand
-/// times the usual ones, or some times what the cable weighs.
+/// times the usual ones, or a few times the cable's weight.
 pub fn extreme_robot(elements: Range<usize>) -> impl Strategy<Value = (Robot, Motion)> {
     let none_or = |other| prop_oneof![1 => Just(0.0), 2 => other];
     let physics = (

@@ -103,7 +103,7 @@ impl Referee {
     pub fn eigenvalues(&self, speed: f64) -> Option<Vec<C64>> {
         let matrix = self.companion(speed);
         let values = eigenvalues(&matrix, None)?;
-        // The solver does not tell when it has given up: then the eigenvalues and their squares do not add up.
+        // The solver does not tell when it has given up. But then the sums of eigenvalues and of squares are wrong.
         let (sum, squares): (C64, C64) = (values.iter().sum(), values.iter().map(|s| s * s).sum());
         let error = backward_error(&matrix);
         let of_square = matrix.transpose().dot(&matrix);
@@ -117,8 +117,8 @@ impl Referee {
         self.eigenvalues(speed).map(|values| values.iter().map(|l| l.re).fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// The first speed (m/s) at which something grows, as one finds it without knowing the structure: by all eigenvalues
-    /// at speeds `step` apart, then bisection to 1e-9 m/s.
+    /// The first speed (m/s) at which a mode grows, found without the structure: by all eigenvalues at speeds `step` apart,
+    /// then by bisection to 1e-9 m/s.
     pub fn scan(&self, step: f64, limit: f64) -> Option<f64> {
         let grows = |speed: f64| self.growth_rate(speed).expect("eigenvalues") > 0.0;
         let mut speed = 0.0;
@@ -235,7 +235,7 @@ fn eigenvalues(matrix: &DMatrix<f64>, vectors: Option<[&mut DMatrix<f64>; 2]>) -
             faer::prelude::default(),
         )
     };
-    // With some matrices the solver reaches beyond its own bounds and panics.
+    // For some matrices the solver's index runs out of bounds, and it panics.
     catch_unwind(AssertUnwindSafe(solve)).ok()?.expect("finite entries");
     Some(re.iter().zip(im.iter()).map(|(&re, &im)| C64::new(re, im)).collect())
 }
