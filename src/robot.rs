@@ -93,6 +93,19 @@ pub struct RobotSpec {
 }
 
 /// A validated robot; derefs to its [`RobotSpec`] for reading.
+///
+/// ```
+/// use tautline::robot::{Robot, RobotSpec, paper_spec};
+///
+/// let heavier = Robot::new(RobotSpec { platform_mass: 3.0, ..paper_spec() })?;
+/// assert_eq!((heavier.cables.len(), heavier.pair()), (4, [0, 1]));
+///
+/// // All faults are told at once, each with its field, the value found and what is allowed.
+/// let refused = Robot::new(RobotSpec { platform_mass: 0.0, gravity: -9.81, ..paper_spec() });
+/// let faults = refused.map_err(|faults| faults.to_string());
+/// assert_eq!(faults.unwrap_err().lines().last(), Some("platform.mass: 0.0 is not allowed; allowed: a finite number greater than 0"));
+/// # Ok::<(), tautline::robot::Faults>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     spec: RobotSpec,
@@ -360,6 +373,16 @@ fn check_cables(cables: &[Cable], faults: &mut Vec<Fault>) -> Option<[usize; 2]>
 }
 
 /// Where the platform is and how it moves: at constant velocity, quasi-statically.
+///
+/// ```
+/// use tautline::Motion;
+///
+/// // At (2, −1) m, along (3, 4), with 5 m/s. The direction is normalised.
+/// let motion = Motion::new([2.0, -1.0], [3.0, 4.0], 5.0)?;
+/// assert!((motion.direction().x - 0.6).abs() < 1e-15 && (motion.direction().y - 0.8).abs() < 1e-15);
+/// assert!(Motion::new([2.0, -1.0], [0.0, 0.0], 5.0).is_err(), "no direction");
+/// # Ok::<(), tautline::robot::Faults>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion {
     position: Vec2,

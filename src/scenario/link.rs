@@ -19,6 +19,15 @@
 //!
 //! The shortest form is written, so most numbers that people type take a byte or two: the paper's robot has 81
 //! characters. As deflated JSON it would have 410, as plain doubles 370 or deflated 130, and dragged it would gain more.
+//!
+//! ```
+//! use tautline::scenario::{link, presets};
+//!
+//! let scenario = presets::PRESETS[0].scenario();
+//! let text = link::encode(&scenario);
+//! assert_eq!(text.len(), 81);
+//! assert_eq!(link::decode(&text), Ok(scenario));
+//! ```
 
 use base64::{Engine as _, prelude::BASE64_URL_SAFE_NO_PAD};
 
