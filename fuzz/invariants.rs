@@ -11,14 +11,14 @@ use std::time::{Duration, Instant};
 use base64::{Engine as _, prelude::BASE64_URL_SAFE_NO_PAD};
 use tautline::cli::{self, Start, Streams};
 use tautline::compute::protocol::{
-    AskedChoice, Batch, DirectionsChoice, Incoming, Job, ModeChoice, Outgoing, Reply, Request, StudyChoice, StudyJob,
-    Task, Update, Which,
+    Batch, Incoming, Job, ModeChoice, Outgoing, Reply, Request, StudyJob, Task, Topic, Update, Which,
 };
 use tautline::compute::{Bench, Engine};
 use tautline::robot::{Faults, Linearisation, Strain};
 use tautline::scenario::link::{self, LinkError};
 use tautline::scenario::report::StatusReport;
 use tautline::scenario::{Report, Scenario, presets};
+use tautline::study::{Asked, Directions, Grid, Line, Study};
 
 /// A target: tries bytes and gives whether they were accepted.
 pub type Target = fn(&[u8]) -> bool;
@@ -46,7 +46,7 @@ const MOST_PLACES: usize = 4;
 const MOST_SLICES: usize = 12;
 
 /// A study, the places that are asked for, a mode, and up to which speed to search.
-type Wanted = (StudyChoice, Vec<usize>, ModeChoice, f64);
+type Wanted = (Study, Vec<usize>, ModeChoice, f64);
 
 /// A scenario file.
 pub fn scenario(bytes: &[u8]) -> bool {
@@ -145,7 +145,7 @@ pub fn worker(bytes: &[u8]) -> bool {
     }
 
     let mut bench = Bench::default();
-    let topic = study.topic();
+    let topic = Topic::of(&study);
     let study = Task::Study { generation: 1, job: StudyJob { revision: 1, scenario, study } };
     let batch = Task::Batch(Batch { topic, generation: 1, places: places.clone() });
     for task in [study, batch] {
@@ -205,16 +205,7 @@ pub fn arguments(bytes: &[u8]) -> bool {
 /// Inputs that are accepted, for mutations to begin with: the target's name, a name and the bytes.
 pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
     let mut seeds = Vec::new();
-    let max_speed = MOST_SPEED;
-    let asked = AskedChoice::Critical { max_speed };
-    let studies = [
-        StudyChoice::Line { points: 3, max_speed },
-        StudyChoice::Map { nx: 2, ny: 2, directions: DirectionsChoice::Worst, asked },
-        StudyChoice::Map { nx: 2, ny: 2, directions: DirectionsChoice::Motion, asked: AskedChoice::Growth },
-        StudyChoice::Polar { count: 3, max_speed },
-        StudyChoice::Campbell { to: 9.0, count: 3 },
-        StudyChoice::Convergence { counts: vec![2, 3], max_speed },
-    ];
+    let limit = MOST_SPEED;
     for (i, preset) in presets::PRESETS.iter().enumerate() {
         let mut scenario = preset.scenario();
         let mut add =
@@ -231,10 +222,22 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
         add("link", "-odd", fields(&odd));
         // Small, and of every robot another study.
         scenario.elements_per_cable = 3;
+        let (robot, motion) = scenario.to_robot().unwrap();
+        let (position, direction) = (motion.position(), motion.direction());
+        let (grid, asked) = (Grid::of(&robot, 2, 2), Asked::Critical { limit });
+        let growth = Asked::Growth { speed: motion.speed() };
+        let studies = [
+            Study::Line { line: Line::through(&robot, &motion, 3), limit },
+            Study::Map { grid, directions: Directions::Worst(Directions::WORST_OF), asked },
+            Study::Map { grid, directions: Directions::One(direction), asked: growth },
+            Study::Polar { position, count: 3, limit },
+            Study::Speeds { position, direction, to: 9.0, count: 3 },
+            Study::Elements { position, direction, counts: vec![2, 3], limit },
+        ];
         let study = studies[i % studies.len()].clone();
         let along_x = i % 2 == 0;
         let which = if along_x { Which::Critical } else { Which::Near([0.0, 1.0]) };
-        let wanted: Wanted = (study.clone(), vec![0, 1], ModeChoice { which, along_x }, max_speed);
+        let wanted: Wanted = (study.clone(), vec![0, 1], ModeChoice { which, along_x }, limit);
         add("analysis", "", fields(&scenario));
         add("worker", "", [postcard::to_stdvec(&wanted).unwrap(), fields(&scenario)].concat());
         let job = StudyJob { revision: 1, scenario: scenario.to_json(), study };
@@ -322,24 +325,33 @@ fn is_small(scenario: &Scenario) -> bool {
 }
 
 /// Makes a study small. Numbers that are not allowed stay.
-fn bound(study: &mut StudyChoice) {
+fn bound(study: &mut Study) {
     match study {
-        StudyChoice::Line { max_speed, .. }
-        | StudyChoice::Polar { max_speed, .. }
-        | StudyChoice::Map { asked: AskedChoice::Critical { max_speed }, .. } => bound_speed(max_speed),
-        StudyChoice::Convergence { counts, max_speed } => {
+        Study::Line { limit, .. } | Study::Polar { limit, .. } => bound_speed(limit),
+        Study::Map { asked, directions, .. } => {
+            if let Asked::Critical { limit } = asked {
+                bound_speed(limit);
+            }
+            // More than are allowed stay so.
+            if let Directions::Worst(count) = directions
+                && *count <= MOST_ELEMENTS * MOST_ELEMENTS
+            {
+                *count = (*count).min(Directions::WORST_OF);
+            }
+        }
+        Study::Elements { counts, limit, .. } => {
             for count in counts {
                 *count = (*count).min(MOST_ELEMENTS / 4);
             }
-            bound_speed(max_speed);
+            bound_speed(limit);
         }
-        StudyChoice::Modes { spectra } => {
+        Study::Modes { spectra } => {
             spectra.truncate(MOST_PLACES);
             for (_, values) in spectra {
                 values.truncate(MOST_ELEMENTS);
             }
         }
-        StudyChoice::Map { asked: AskedChoice::Growth, .. } | StudyChoice::Campbell { .. } => {}
+        Study::Speeds { .. } => {}
     }
 }
 

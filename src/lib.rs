@@ -5,7 +5,7 @@
 //! equations; the code keeps its letters.
 //!
 //! The layers, each using only those before it: [`robot`], [`mechanics`], [`stability`], [`study`]
-//! (plain numerics: no interface, clock, files, threads or serialisation), then the scenario file, the
+//! (plain numerics: no interface, clock, files or threads), then the scenario file, the
 //! compute engine, and the interfaces on top.
 //!
 //! ```

@@ -9,22 +9,23 @@ use tautline::Local;
 use tautline::compute::Engine;
 use tautline::compute::protocol::{Extent, Job, ModeChoice, Reply, Request, Update, Which};
 use tautline::robot::{Linearisation, TensionLaw};
-use tautline::scenario::report::KnobReport;
+use tautline::scenario::report::CriticalReport;
 use tautline::scenario::{Report, Scenario, presets};
 use tautline::stability::{Polarisation, mode};
-use tautline::study::validation::CHECKS;
+use tautline::study::Knob;
+use tautline::study::validation::{CHECKS, Outcome};
 
 /// The parameters of the paper's robot.
-const KNOBS: [KnobReport; 9] = [
-    KnobReport::YoungsModulus,
-    KnobReport::Area,
-    KnobReport::MassPerLength,
-    KnobReport::PlatformMass,
-    KnobReport::Tension(3),
-    KnobReport::Tension(4),
-    KnobReport::Alpha,
-    KnobReport::Beta,
-    KnobReport::Gravity,
+const KNOBS: [Knob; 9] = [
+    Knob::YoungsModulus,
+    Knob::Area,
+    Knob::MassPerLength,
+    Knob::PlatformMass,
+    Knob::Tension(2),
+    Knob::Tension(3),
+    Knob::Alpha,
+    Knob::Beta,
+    Knob::Gravity,
 ];
 const CRITICAL: ModeChoice = ModeChoice { which: Which::Critical, along_x: false };
 
@@ -77,7 +78,7 @@ fn a_job_is_answered_with_pose_critical_speed_shape_curve_and_sensitivities() {
                 seen[0] = true;
             }
             Update::Critical(answer) => {
-                assert_eq!(answer.critical, expected.critical);
+                assert_eq!(answer.critical.as_ref().map(CriticalReport::from), expected.critical);
                 seen[1] = true;
             }
             Update::Shape(shape) => {
@@ -144,7 +145,7 @@ fn the_newest_pose_is_served_first_and_only_the_newest_search_need_finish() {
     else {
         panic!("the newest job has no critical speed")
     };
-    assert_eq!(answer.critical, cold(&paper_at(4.5)).critical);
+    assert_eq!(answer.critical.as_ref().map(CriticalReport::from), cold(&paper_at(4.5)).critical);
 }
 
 #[test]
@@ -278,8 +279,7 @@ fn checks_of_known_numbers_are_done_when_all_else_is_done() {
     assert!(replies.iter().any(|reply| matches!(reply.update, Update::Sensitivities(_))));
     assert_eq!((answer.index, answer.count), (0, CHECKS.len()));
     assert_eq!((answer.name.as_str(), answer.unit.as_str()), (CHECKS[0].name, CHECKS[0].unit));
-    let [expected, got, tolerance] = answer.outcome.clone().expect("an outcome");
-    assert!((got - expected).abs() <= tolerance, "{answer:?}");
+    assert!(answer.outcome.as_ref().is_ok_and(Outcome::passes), "{answer:?}");
     engine.submit(Request::Check(CHECKS.len()));
     assert_eq!(finish(&mut engine), [], "there is no such check");
 }

@@ -9,13 +9,10 @@ use std::time::{Duration, Instant};
 
 use nalgebra::Complex;
 use tautline::compute::Pool;
-use tautline::compute::protocol::{
-    AskedChoice, DirectionsChoice, Missing, PlaceAnswer, Revision, StudyChoice, StudyJob, StudyNews, Topic,
-    VerdictAnswer,
-};
-use tautline::scenario::report::CriticalReport;
+use tautline::compute::protocol::{Revision, StudyJob, StudyNews, Topic};
+use tautline::robot::Vec2;
 use tautline::scenario::{Scenario, presets};
-use tautline::study::{Answer, Asked, Directions, Grid, Line, Study, Verdict};
+use tautline::study::{Answer, Asked, Directions, Grid, Line, Study};
 
 const LIMIT: f64 = 40.0;
 const TOO_LONG: Duration = Duration::from_mins(2);
@@ -28,77 +25,49 @@ fn paper() -> Scenario {
     scenario
 }
 
-fn job(revision: Revision, study: StudyChoice) -> StudyJob {
+fn job(revision: Revision, study: Study) -> StudyJob {
     StudyJob { revision, scenario: paper().to_json(), study }
 }
 
-fn map(nx: usize, ny: usize) -> StudyChoice {
-    let asked = AskedChoice::Critical { max_speed: LIMIT };
-    StudyChoice::Map { nx, ny, directions: DirectionsChoice::Motion, asked }
+fn map(nx: usize, ny: usize) -> Study {
+    let (robot, motion) = paper().to_robot().expect("physical");
+    let asked = Asked::Critical { limit: LIMIT };
+    Study::Map { grid: Grid::of(&robot, nx, ny), directions: Directions::One(motion.direction()), asked }
 }
 
-/// Each choice with the study that it is.
-fn studies() -> Vec<(StudyChoice, Study)> {
+fn line(count: usize) -> Study {
+    let (robot, motion) = paper().to_robot().expect("physical");
+    Study::Line { line: Line::through(&robot, &motion, count), limit: LIMIT }
+}
+
+/// One of each topic, the map last and in all its ways.
+fn studies() -> Vec<Study> {
     let (robot, motion) = paper().to_robot().expect("physical");
     let (position, direction) = (motion.position(), motion.direction());
-    let counts = vec![8, 2, 4];
     let grid = Grid::of(&robot, 5, 4);
-    let asked = [
-        (AskedChoice::Critical { max_speed: LIMIT }, Asked::Critical { limit: LIMIT }),
-        (AskedChoice::Growth, Asked::Growth { speed: motion.speed() }),
-    ];
-    let directions = [
-        (DirectionsChoice::Motion, Directions::One(direction)),
-        (DirectionsChoice::Worst, Directions::Worst(Directions::WORST_OF)),
-    ];
+    let spectra = (0..5).map(|i| {
+        let speed = f64::from(i);
+        (speed, vec![Complex::new(-0.1 * speed, 2.0 + speed), Complex::new(-0.2, 9.0 - speed)])
+    });
     let mut studies = vec![
-        (
-            StudyChoice::Line { points: 11, max_speed: LIMIT },
-            Study::Line { line: Line::through(&robot, &motion, 11), limit: LIMIT },
-        ),
-        (StudyChoice::Polar { count: 9, max_speed: LIMIT }, Study::Polar { position, count: 9, limit: LIMIT }),
-        (StudyChoice::Campbell { to: 12.0, count: 13 }, Study::Speeds { position, direction, to: 12.0, count: 13 }),
-        (
-            StudyChoice::Convergence { counts: counts.clone(), max_speed: LIMIT },
-            Study::Elements { position, direction, counts, limit: LIMIT },
-        ),
+        line(11),
+        Study::Polar { position, count: 9, limit: LIMIT },
+        Study::Speeds { position, direction, to: 12.0, count: 13 },
+        Study::Elements { position, direction, counts: vec![8, 2, 4], limit: LIMIT },
+        Study::Modes { spectra: spectra.collect() },
     ];
-    for (asked_choice, asked) in asked {
-        for (directions_choice, directions) in directions {
-            studies.push((
-                StudyChoice::Map { nx: 5, ny: 4, directions: directions_choice, asked: asked_choice },
-                Study::Map { grid, directions, asked },
-            ));
+    for asked in [Asked::Critical { limit: LIMIT }, Asked::Growth { speed: motion.speed() }] {
+        for directions in [Directions::One(direction), Directions::Worst(Directions::WORST_OF)] {
+            studies.push(Study::Map { grid, directions, asked });
         }
     }
     studies
 }
 
-fn plain(answer: Answer) -> PlaceAnswer {
-    match answer {
-        Answer::Critical { direction, verdict, wave_limit } => PlaceAnswer::Critical {
-            wave_limit,
-            direction: [direction.x, direction.y],
-            verdict: match verdict {
-                Verdict::Infeasible => VerdictAnswer::Infeasible,
-                Verdict::Unknown => VerdictAnswer::Unknown,
-                Verdict::NotConverged => VerdictAnswer::NotConverged,
-                Verdict::NoneUpTo(limit) => VerdictAnswer::NoneUpTo(limit),
-                Verdict::Critical(critical) => VerdictAnswer::Critical(CriticalReport::from(&critical)),
-            },
-        },
-        Answer::Growth(rate) => PlaceAnswer::Growth(rate.map_err(Missing::from)),
-        Answer::Spectrum(spectrum) => {
-            let pairs = |values: Vec<Complex<f64>>| values.iter().map(|value| [value.re, value.im]).collect();
-            PlaceAnswer::Spectrum(spectrum.map(pairs).map_err(Missing::from))
-        }
-    }
-}
-
 /// The answers of each topic.
 #[derive(Default)]
 struct Seen {
-    answers: BTreeMap<(Topic, Revision), BTreeMap<usize, PlaceAnswer>>,
+    answers: BTreeMap<(Topic, Revision), BTreeMap<usize, Answer>>,
     /// In the order in which they came.
     places: Vec<(Topic, usize)>,
     finished: Vec<(Topic, Revision)>,
@@ -166,15 +135,15 @@ fn every_study_gives_at_every_place_what_it_gives_alone() {
     let (robot, _) = paper().to_robot().expect("physical");
     let mut watched = Watched::new();
     assert!((1..=8).contains(&watched.pool.size()));
-    for (revision, (choice, study)) in (1..).zip(studies()) {
-        let topic = choice.topic();
-        watched.pool.want(job(revision, choice));
+    for (revision, study) in (1..).zip(studies()) {
+        let topic = Topic::of(&study);
+        watched.pool.want(job(revision, study.clone()));
         // What is small may have ended already.
         assert!(watched.pool.progress(topic).is_none_or(|(_, all)| all == study.len()));
         watched.until(|seen| seen.finished.contains(&(topic, revision)));
         assert_eq!(watched.pool.progress(topic), None);
-        let expected: BTreeMap<usize, PlaceAnswer> =
-            (0..study.len()).map(|place| (place, plain(study.answer(&robot, place)))).collect();
+        let expected: BTreeMap<usize, Answer> =
+            (0..study.len()).map(|place| (place, study.answer(&robot, place))).collect();
         assert_eq!(watched.seen.answers[&(topic, revision)], expected);
     }
 }
@@ -183,10 +152,10 @@ fn every_study_gives_at_every_place_what_it_gives_alone() {
 fn all_topics_are_answered_side_by_side_and_a_map_starves_none() {
     let mut watched = Watched::new();
     watched.pool.want(job(1, map(33, 17)));
-    for (choice, _) in studies().into_iter().take(4) {
-        watched.pool.want(job(1, choice));
+    for study in studies().into_iter().take(5) {
+        watched.pool.want(job(1, study));
     }
-    watched.until(|seen| seen.finished.len() == 5);
+    watched.until(|seen| seen.finished.len() == 6);
     assert_eq!(watched.seen.finished.last(), Some(&(Topic::Map, 1)));
     let of_the_map: Vec<usize> =
         watched.seen.places.iter().filter(|(topic, _)| *topic == Topic::Map).map(|(_, place)| *place).collect();
@@ -206,12 +175,10 @@ fn a_study_takes_the_place_of_its_topics_older_one() {
     watched.pool.want(job(1, map(33, 17)));
     watched.until(|seen| !seen.places.is_empty());
     // Both have the same places, so places alone would not tell them apart.
-    let mut other = job(2, map(33, 17));
-    let mut scenario = paper();
-    scenario.motion.direction = [0.0, 1.0];
-    other.scenario = scenario.to_json();
-    watched.pool.want(other);
-    watched.pool.want(job(3, StudyChoice::Line { points: 3, max_speed: LIMIT }));
+    let Study::Map { grid, asked, .. } = map(33, 17) else { panic!("a map") };
+    let other = Study::Map { grid, directions: Directions::One(Vec2::y()), asked };
+    watched.pool.want(job(2, other));
+    watched.pool.want(job(3, line(3)));
     let old = watched.seen.answers[&(Topic::Map, 1)].len();
     watched.until(|seen| seen.finished.len() == 2);
     assert_eq!(watched.seen.answers[&(Topic::Map, 1)].len(), old, "more of what is wanted no longer");
@@ -219,7 +186,7 @@ fn a_study_takes_the_place_of_its_topics_older_one() {
     assert!(!watched.seen.finished.contains(&(Topic::Map, 1)));
     for answer in watched.seen.answers[&(Topic::Map, 2)].values() {
         assert!(
-            matches!(answer, PlaceAnswer::Critical { direction, .. } if direction[1].to_bits() == 1.0_f64.to_bits()),
+            matches!(answer, Answer::Critical { direction, .. } if direction.y.to_bits() == 1.0_f64.to_bits()),
             "{answer:?}"
         );
     }
@@ -262,8 +229,9 @@ fn what_cannot_be_begun_is_refused_and_what_is_empty_is_finished() {
     let mut unphysical = job(1, map(3, 3));
     unphysical.scenario = unphysical.scenario.replace("\"mass\": 2", "\"mass\": -2");
     watched.pool.want(unphysical);
-    watched.pool.want(job(2, StudyChoice::Polar { count: 4, max_speed: f64::NAN }));
-    watched.pool.want(job(3, StudyChoice::Convergence { counts: Vec::new(), max_speed: LIMIT }));
+    let (position, direction) = (Vec2::zeros(), Vec2::x());
+    watched.pool.want(job(2, Study::Polar { position, count: 4, limit: f64::NAN }));
+    watched.pool.want(job(3, Study::Elements { position, direction, counts: Vec::new(), limit: LIMIT }));
     let news = watched.pool.poll();
     let [
         StudyNews::Refused { topic: Topic::Map, revision: 1, reason: first },
@@ -278,4 +246,40 @@ fn what_cannot_be_begun_is_refused_and_what_is_empty_is_finished() {
     watched.pool.want(job(4, map(41, 21)));
     watched.pool.want(StudyJob { scenario: String::new(), ..job(5, map(3, 3)) });
     assert_eq!(watched.pool.progress(Topic::Map), None);
+}
+
+/// A message may hold any numbers. What no page asks for is refused, whoever asks: a worker has nothing else to go by.
+#[test]
+fn numbers_that_are_not_allowed_are_refused() {
+    let (position, direction) = (Vec2::zeros(), Vec2::x());
+    let nowhere = Vec2::new(f64::NAN, 0.0);
+    let (count, limit) = (4, LIMIT);
+    let grid = Grid { low: Vec2::zeros(), high: Vec2::new(1.0, 1.0), nx: 3, ny: 3 };
+    let through = Line { from: Vec2::zeros(), to: Vec2::new(1.0, 0.0), direction, count };
+    let (ahead, asked) = (Directions::One(direction), Asked::Critical { limit });
+    let map = |grid, directions, asked| Study::Map { grid, directions, asked };
+    let refused = [
+        Study::Line { line: Line { to: nowhere, ..through }, limit },
+        Study::Line { line: Line { direction: Vec2::zeros(), ..through }, limit },
+        Study::Line { line: Line { count: usize::MAX, ..through }, limit },
+        Study::Line { line: through, limit: -1.0 },
+        map(Grid { low: nowhere, ..grid }, ahead, asked),
+        map(Grid { nx: usize::MAX, ny: usize::MAX, ..grid }, ahead, asked),
+        map(grid, Directions::One(nowhere), asked),
+        map(grid, Directions::Worst(usize::MAX), asked),
+        map(grid, ahead, Asked::Critical { limit: f64::INFINITY }),
+        map(grid, ahead, Asked::Growth { speed: f64::NAN }),
+        Study::Polar { position: nowhere, count, limit },
+        Study::Speeds { position, direction, to: f64::NAN, count },
+        Study::Speeds { position, direction: nowhere, to: 9.0, count },
+        Study::Elements { position: nowhere, direction, counts: vec![2], limit },
+        Study::Modes { spectra: vec![(f64::NAN, Vec::new())] },
+        Study::Modes { spectra: vec![(1.0, vec![Complex::new(0.0, f64::INFINITY)])] },
+    ];
+    let mut watched = Watched::new();
+    for study in refused {
+        watched.pool.want(job(1, study.clone()));
+        let news = watched.pool.poll();
+        assert!(matches!(news[..], [StudyNews::Refused { revision: 1, .. }]), "{study:?}: {news:?}");
+    }
 }

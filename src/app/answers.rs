@@ -6,10 +6,10 @@ use web_time::Instant;
 
 use crate::compute::protocol::{CriticalAnswer, Extent, Failed, ModeShape, PoseAnswer, Reply, Revision, Update};
 use crate::scenario::Report;
-use crate::scenario::report::SensitivityReport;
+use crate::study::Sensitivity;
 
 /// What each parameter does to the critical speed, or why that cannot be told.
-pub type Sensitivities = Result<Vec<SensitivityReport>, String>;
+pub type Sensitivities = Result<Vec<Sensitivity>, String>;
 
 /// The newest answers of each kind, each with the revision that it answers.
 #[derive(Clone, Debug, Default)]

@@ -4,7 +4,8 @@ use crate::app::digits;
 use crate::app::series::Meshes;
 use crate::app::studies::{Known, Wish};
 use crate::scenario::Scenario;
-use crate::scenario::report::CriticalReport;
+use crate::stability::Critical;
+use crate::study::Study;
 use crate::study::convergence::{Convergence, Extrapolation};
 
 /// What is known of the mesh's error of a design's critical speed.
@@ -33,8 +34,11 @@ pub enum Certainty {
 
 impl Certainty {
     /// What `known` says of the critical speed of `scenario`, where it is a study of its meshes and complete.
-    pub fn of(scenario: &Scenario, critical: &CriticalReport, known: &Known) -> Self {
-        let same = Wish::new(scenario, known.wish.study.clone()) == known.wish;
+    pub fn of(scenario: &Scenario, critical: &Critical, known: &Known) -> Self {
+        let same = match &known.wish.study {
+            Study::Elements { counts, .. } => Wish::meshes(scenario, counts.clone()).as_ref() == Some(&known.wish),
+            _ => false,
+        };
         let today = scenario.elements_per_cable;
         let Some(meshes) = Meshes::with(known, today, Some(critical)).filter(|_| same && known.is_complete()) else {
             return Self::Unknown;
@@ -42,15 +46,15 @@ impl Certainty {
         match meshes.limit {
             Convergence::Limit(limit) if limit.error.is_some() => Self::Within {
                 speed: (critical.speed - limit.limit).abs() + limit.uncertainty,
-                frequency_hz: (critical.frequency_hz - limit.frequency.limit).abs() + limit.frequency.uncertainty,
+                frequency_hz: (critical.frequency_hz() - limit.frequency.limit).abs() + limit.frequency.uncertainty,
                 limit,
             },
             _ => {
-                let spread = |value: fn(&CriticalReport) -> f64| {
-                    let others = meshes.points.iter().filter_map(|(_, verdict)| super::series::critical(verdict));
+                let spread = |value: fn(&Critical) -> f64| {
+                    let others = meshes.points.iter().filter_map(|(_, verdict)| verdict.critical());
                     others.map(|other| (value(other) - value(critical)).abs()).fold(0.0, f64::max)
                 };
-                Self::NotConverging { speed: spread(|c| c.speed), frequency_hz: spread(|c| c.frequency_hz) }
+                Self::NotConverging { speed: spread(|c| c.speed), frequency_hz: spread(Critical::frequency_hz) }
             }
         }
     }
@@ -72,12 +76,12 @@ impl Certainty {
     }
 
     /// The same of the speed as a part of it: what to expect of other poses and directions.
-    pub fn share(self, critical: &CriticalReport) -> Option<f64> {
+    pub fn share(self, critical: &Critical) -> Option<f64> {
         self.speed().map(|speed| speed / critical.speed).filter(|share| share.is_finite())
     }
 
     /// In a few words beside the figure; nothing while nothing is known.
-    pub fn note(self, critical: &CriticalReport) -> Option<String> {
+    pub fn note(self, critical: &Critical) -> Option<String> {
         match self {
             Self::Unknown => None,
             // Of a speed that is 0 on every mesh there is no doubt.
@@ -88,7 +92,7 @@ impl Certainty {
     }
 
     /// The exact number and what is behind it, for those who ask.
-    pub fn explained(self, critical: &CriticalReport, elements: usize) -> String {
+    pub fn explained(self, critical: &Critical, elements: usize) -> String {
         let exact = format!("{} m/s with {elements} elements per cable.", critical.speed);
         match self {
             Self::Unknown => {
@@ -110,22 +114,24 @@ impl Certainty {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compute::protocol::{PlaceAnswer, StudyChoice, VerdictAnswer};
+    use crate::robot::Vec2;
     use crate::scenario::presets;
-    use crate::scenario::report::KindReport;
+    use crate::stability::Kind;
+    use crate::study::{Answer, Verdict};
+    use nalgebra::Complex;
+    use std::f64::consts::TAU;
 
-    fn found(speed: f64, kind: KindReport) -> CriticalReport {
-        let frequency_hz = if kind == KindReport::Flutter { 0.27 } else { 0.0 };
-        CriticalReport { speed, frequency_hz, kind, cable: 4 }
+    fn found(speed: f64, kind: Kind) -> Critical {
+        let frequency_hz = if kind == Kind::Flutter { 0.27 } else { 0.0 };
+        Critical { speed, eigenvalue: Complex::new(0.0, frequency_hz * TAU), kind, cable: 3 }
     }
 
-    fn known(kinds: [KindReport; 3], speeds: [f64; 3]) -> (Scenario, Known) {
+    fn known(kinds: [Kind; 3], speeds: [f64; 3]) -> (Scenario, Known) {
         let scenario = presets::PRESETS[0].scenario();
-        let counts = vec![10, 20, 40];
-        let wish = Wish::new(&scenario, StudyChoice::Convergence { counts, max_speed: 40.0 });
-        let place = |(speed, kind)| PlaceAnswer::Critical {
-            direction: [1.0, 0.0],
-            verdict: VerdictAnswer::Critical(found(speed, kind)),
+        let wish = Wish::meshes(&scenario, vec![10, 20, 40]).expect("physical");
+        let place = |(speed, kind)| Answer::Critical {
+            direction: Vec2::x(),
+            verdict: Verdict::Critical(found(speed, kind)),
             wave_limit: None,
         };
         let places = speeds.into_iter().zip(kinds).map(|pair| Some(place(pair))).collect();
@@ -134,9 +140,9 @@ mod tests {
 
     #[test]
     fn a_figure_is_as_certain_as_the_meshes_say() {
-        let flutter = [KindReport::Flutter; 3];
+        let flutter = [Kind::Flutter; 3];
         let (scenario, study) = known(flutter, [11.299, 11.074, 11.014]);
-        let critical = found(11.299, KindReport::Flutter);
+        let critical = found(11.299, Kind::Flutter);
         let certainty = Certainty::of(&scenario, &critical, &study);
         let Certainty::Within { speed, .. } = certainty else { panic!("{certainty:?}") };
         assert!((speed - 0.306).abs() < 0.01, "{speed}");
@@ -153,7 +159,7 @@ mod tests {
 
     #[test]
     fn what_does_not_converge_is_told_without_a_limit() {
-        use KindReport::{Divergence, Flutter};
+        use Kind::{Divergence, Flutter};
         let (scenario, study) = known([Flutter, Flutter, Divergence], [11.299, 11.074, 10.5]);
         let critical = found(11.299, Flutter);
         let certainty = Certainty::of(&scenario, &critical, &study);

@@ -8,9 +8,9 @@ use crate::app::Facts;
 use crate::app::series::{self, degrees};
 use crate::app::state::Plot;
 use crate::app::studies::Known;
-use crate::compute::protocol::{Extent, Missing, PlaceAnswer, StudyChoice, Topic, VerdictAnswer};
-use crate::scenario::report::StatusReport;
-use crate::study::evenly;
+use crate::compute::protocol::{Extent, Topic};
+use crate::scenario::report::{CriticalReport, StatusReport, parameter};
+use crate::study::{Answer, NoAnswer, Status, Study, Verdict, evenly};
 
 /// Something to save.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,11 +59,9 @@ impl Table {
 /// The columns of what is known of a pose and direction, as on the command line.
 const VERDICT: [&str; 7] = ["feasible", "critical_speed", "frequency_hz", "kind", "cable", "wave_limit", "status"];
 
-fn verdict(verdict: &VerdictAnswer, wave_limit: Option<f64>) -> [String; 7] {
-    let critical = match verdict {
-        VerdictAnswer::Critical(critical) => Some(critical),
-        _ => None,
-    };
+fn verdict(verdict: &Verdict, wave_limit: Option<f64>) -> [String; 7] {
+    let critical = verdict.critical().map(CriticalReport::from);
+    let critical = critical.as_ref();
     [
         cell(verdict.feasible()),
         cell(critical.map(|critical| critical.speed)),
@@ -71,7 +69,7 @@ fn verdict(verdict: &VerdictAnswer, wave_limit: Option<f64>) -> [String; 7] {
         cell(critical.map(|critical| critical.kind)),
         cell(critical.map(|critical| critical.cable)),
         cell(wave_limit),
-        verdict.status().to_string(),
+        StatusReport::from(verdict.status()).to_string(),
     ]
 }
 
@@ -81,9 +79,9 @@ fn cell(value: Option<impl ToString>) -> String {
 }
 
 /// How the search for eigenvalues ended.
-fn status<T>(answer: &Result<T, Missing>) -> String {
-    let status = answer.as_ref().map_or_else(|missing| missing.status(), |_| StatusReport::Found);
-    status.to_string()
+fn status<T>(answer: &Result<T, NoAnswer>) -> String {
+    let status = answer.as_ref().map_or_else(|reason| reason.status(), |_| Status::Found);
+    StatusReport::from(status).to_string()
 }
 
 /// The numbers of a plot, where there are any.
@@ -147,64 +145,62 @@ fn knobs(facts: Facts<'_>) -> Option<Table> {
     let (found, _) = facts.answers.sensitivities()?;
     let mut table = Table::new(&["parameter", "critical_speed_percent_per_percent", "frequency_percent_per_percent"]);
     let rows = found.as_ref().ok()?.iter();
-    table.rows = rows.map(|one| vec![one.knob.to_string(), one.speed.to_string(), cell(one.frequency)]).collect();
+    table.rows = rows.map(|one| vec![parameter(one.knob), one.speed.to_string(), cell(one.frequency)]).collect();
     Some(table)
 }
 
 /// What is known of a study, place by place.
 fn places(known: &Known) -> Option<Table> {
     let answered = || known.places.iter().enumerate().filter_map(|(i, answer)| Some((i, answer.as_ref()?)));
-    let at: Box<dyn Fn(usize) -> Vec<String>>;
+    let at: Box<dyn Fn(usize) -> Vec<String> + '_>;
     let header: &[&str] = match &known.wish.study {
-        StudyChoice::Line { .. } => {
-            let line = known.wish.line()?;
+        Study::Line { line, .. } => {
             at = Box::new(move |i| line.position(i).iter().map(ToString::to_string).collect());
             &["x", "y"]
         }
-        StudyChoice::Map { .. } => {
-            let grid = known.wish.grid()?;
+        Study::Map { grid, .. } => {
             at = Box::new(move |i| grid.position(i).iter().map(ToString::to_string).collect());
             &["x", "y"]
         }
-        StudyChoice::Polar { .. } => {
+        Study::Polar { .. } => {
             let directions: Vec<f64> = series::directions(known).iter().map(|(d, _)| degrees(*d)).collect();
             at = Box::new(move |i| directions.get(i).map(ToString::to_string).into_iter().collect());
             &["direction_degrees"]
         }
-        StudyChoice::Campbell { to, count } => {
+        Study::Speeds { to, count, .. } => {
             let (to, count) = (*to, *count);
             at = Box::new(move |i| vec![evenly(0.0, to, i, count).to_string()]);
             &["speed"]
         }
-        StudyChoice::Modes { .. } => return None,
-        StudyChoice::Convergence { counts, .. } => {
-            let counts = counts.clone();
+        Study::Modes { .. } => return None,
+        Study::Elements { counts, .. } => {
             at = Box::new(move |i| counts.get(i).map(ToString::to_string).into_iter().collect());
             &["elements_per_cable"]
         }
     };
     let values: &[&str] = match answered().next()?.1 {
-        PlaceAnswer::Critical { .. } => &VERDICT,
-        PlaceAnswer::Growth(_) => &["growth_rate", "status"],
-        PlaceAnswer::Spectrum(_) => &["growth_rate", "frequency_hz", "status"],
-        PlaceAnswer::Modes(_) => return None,
+        Answer::Critical { .. } => &VERDICT,
+        Answer::Growth(_) => &["growth_rate", "status"],
+        Answer::Spectrum(_) => &["growth_rate", "frequency_hz", "status"],
+        Answer::Modes(_) => return None,
     };
     let mut table = Table::new(&[header, values].concat());
     for (i, answer) in answered() {
         let row = |values: &[String]| [at(i).as_slice(), values].concat();
         match answer {
-            PlaceAnswer::Critical { verdict: of, wave_limit, .. } => table.rows.push(row(&verdict(of, *wave_limit))),
-            PlaceAnswer::Growth(rate) => table.rows.push(row(&[cell(rate.ok()), status(rate)])),
-            PlaceAnswer::Spectrum(eigenvalues) => {
+            Answer::Critical { verdict: of, wave_limit, .. } => table.rows.push(row(&verdict(of, *wave_limit))),
+            Answer::Growth(rate) => table.rows.push(row(&[cell(rate.ok()), status(rate)])),
+            Answer::Spectrum(eigenvalues) => {
                 let found = eigenvalues.iter().flatten();
-                let found = found.map(|[re, im]| row(&[re.to_string(), (im / TAU).to_string(), status(eigenvalues)]));
+                let found =
+                    found.map(|value| row(&[value.re.to_string(), (value.im / TAU).to_string(), status(eigenvalues)]));
                 table.rows.extend(found);
                 // Where there is none, that is a row too.
                 if eigenvalues.is_err() {
                     table.rows.push(row(&[String::new(), String::new(), status(eigenvalues)]));
                 }
             }
-            PlaceAnswer::Modes(_) => {}
+            Answer::Modes(_) => {}
         }
     }
     Some(table)
@@ -221,11 +217,13 @@ pub fn analysis(facts: Facts<'_>) -> Option<String> {
 mod tests {
     use super::*;
     use crate::app::studies::Wish;
-    use crate::compute::protocol::{AskedChoice, DirectionsChoice};
+    use crate::robot::Vec2;
     use crate::scenario::presets;
-    use crate::scenario::report::{CriticalReport, KindReport};
+    use crate::stability::{Critical, Kind};
+    use crate::study::{Asked, Directions, Grid};
+    use nalgebra::Complex;
 
-    fn table(study: StudyChoice, answers: Vec<PlaceAnswer>) -> String {
+    fn table(study: Study, answers: Vec<Answer>) -> String {
         let wish = Wish::new(&presets::PRESETS[0].scenario(), study);
         let known = Known { places: answers.into_iter().map(Some).collect(), wish, version: (1, 1) };
         places(&known).expect("a table").csv()
@@ -238,17 +236,19 @@ mod tests {
     /// As on the command line: none up to the limit, no equilibrium, and what could not be computed are told apart.
     #[test]
     fn tables_say_whether_something_was_found_and_why_not() {
-        let critical = CriticalReport { speed: 9.5, frequency_hz: 1.25, kind: KindReport::Flutter, cable: 4 };
-        let answer = |verdict, wave_limit| PlaceAnswer::Critical { direction: [1.0, 0.0], verdict, wave_limit };
+        let (position, direction) = (Vec2::zeros(), Vec2::x());
+        let eigenvalue = Complex::new(0.0, 1.25 * TAU);
+        let critical = Critical { speed: 9.5, eigenvalue, kind: Kind::Flutter, cable: 3 };
+        let answer = |verdict, wave_limit| Answer::Critical { direction, verdict, wave_limit };
         let counts = vec![4, 6, 8, 10, 12];
         let csv = table(
-            StudyChoice::Convergence { counts, max_speed: 40.0 },
+            Study::Elements { position, direction, counts, limit: 40.0 },
             vec![
-                answer(VerdictAnswer::Critical(critical), Some(11.5)),
-                answer(VerdictAnswer::NoneUpTo(40.0), Some(50.5)),
-                answer(VerdictAnswer::NotConverged, Some(12.5)),
-                answer(VerdictAnswer::Infeasible, None),
-                answer(VerdictAnswer::Unknown, None),
+                answer(Verdict::Critical(critical), Some(11.5)),
+                answer(Verdict::NoneUpTo(40.0), Some(50.5)),
+                answer(Verdict::NotConverged, Some(12.5)),
+                answer(Verdict::Infeasible, None),
+                answer(Verdict::Unknown, None),
             ],
         );
         assert_eq!(
@@ -262,16 +262,18 @@ mod tests {
                 "12,,,,,,,failed",
             ]
         );
-        let growth =
-            StudyChoice::Map { nx: 3, ny: 1, directions: DirectionsChoice::Motion, asked: AskedChoice::Growth };
-        let missing = [Err(Missing::Infeasible), Err(Missing::Failed)];
-        let rates = [Ok(-0.25)].into_iter().chain(missing).map(PlaceAnswer::Growth).collect();
+        let grid = Grid { low: Vec2::zeros(), high: Vec2::new(2.0, 1.0), nx: 3, ny: 1 };
+        let asked = Asked::Growth { speed: 5.0 };
+        let growth = Study::Map { grid, directions: Directions::One(direction), asked };
+        let missing = [Err(NoAnswer::Infeasible), Err(NoAnswer::Failed)];
+        let rates = [Ok(-0.25)].into_iter().chain(missing).map(Answer::Growth).collect();
         let csv = table(growth, rates);
         assert_eq!(lines(&csv)[0], "x,y,growth_rate,status");
         let ends: Vec<&str> = lines(&csv)[1..].iter().filter_map(|line| line.splitn(3, ',').nth(2)).collect();
         assert_eq!(ends, ["-0.25,found", ",infeasible", ",failed"]);
-        let spectra = vec![PlaceAnswer::Spectrum(Ok(vec![[-1.0, TAU]])), PlaceAnswer::Spectrum(Err(Missing::Failed))];
-        let csv = table(StudyChoice::Campbell { to: 2.0, count: 2 }, spectra);
+        let spectra =
+            vec![Answer::Spectrum(Ok(vec![Complex::new(-1.0, TAU)])), Answer::Spectrum(Err(NoAnswer::Failed))];
+        let csv = table(Study::Speeds { position, direction, to: 2.0, count: 2 }, spectra);
         assert_eq!(lines(&csv), ["speed,growth_rate,frequency_hz,status", "0,-1,1,found", "2,,,failed"]);
     }
 }

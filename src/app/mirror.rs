@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::app::answers::CriticalState;
 use crate::app::panels::answer;
 use crate::app::{Facts, digits};
-use crate::scenario::report::KindReport;
+use crate::stability::Kind;
 
 /// The critical speed in a sentence, once it is known; `None` while it is being computed.
 pub fn summary(facts: Facts<'_>) -> Option<String> {
@@ -20,16 +20,16 @@ pub fn summary(facts: Facts<'_>) -> Option<String> {
             None => format!("No critical speed up to {} metres per second.", answer.searched_up_to),
             Some(critical) => {
                 let kind = match critical.kind {
-                    KindReport::Flutter => {
-                        let frequency = digits::certain(critical.frequency_hz, facts.certainty.frequency_hz());
+                    Kind::Flutter => {
+                        let frequency = digits::certain(critical.frequency_hz(), facts.certainty.frequency_hz());
                         format!("flutter at {frequency} hertz")
                     }
-                    KindReport::Divergence => "divergence".into(),
+                    Kind::Divergence => "divergence".into(),
                 };
                 let speed = digits::certain(critical.speed, facts.certainty.speed());
                 let why = answer::at_rest(critical, &facts.document.scenario).map(|why| format!(" {why}"));
                 let why = why.unwrap_or_default();
-                format!("Critical speed {speed} metres per second, {kind}, cable {}.{why}", critical.cable)
+                format!("Critical speed {speed} metres per second, {kind}, cable {}.{why}", critical.cable + 1)
             }
         },
     })

@@ -12,9 +12,10 @@ use wasm_bindgen::prelude::*;
 use crate::app::command::Command;
 use crate::app::studies::{Known, Stage, Studies, TOPICS};
 use crate::app::{Facts, mirror};
-use crate::compute::protocol::{PlaceAnswer, Revision, Topic, VerdictAnswer};
+use crate::compute::protocol::{Revision, Topic};
 use crate::scenario::report::{CriticalReport, StatusReport};
 use crate::scenario::{Scenario, link};
+use crate::study::{Answer, Study};
 
 /// The element that mirrors the main results as text.
 const SUMMARY: &str = "tautline-summary";
@@ -238,22 +239,22 @@ fn name(topic: Topic) -> &'static str {
 /// The answered points of a map, each [x, y, feasible, critical speed, frequency, kind, cable, wave limit, status] with
 /// null where there is none, or [x, y, growth rate, status].
 fn rows(known: &Known) -> Vec<Value> {
-    let Some(grid) = known.wish.grid() else { return Vec::new() };
-    let row = |(index, answer): (usize, &Option<PlaceAnswer>)| {
+    let Study::Map { grid, .. } = &known.wish.study else { return Vec::new() };
+    let row = |(index, answer): (usize, &Option<Answer>)| {
         let at = grid.position(index);
         match answer.as_ref()? {
-            PlaceAnswer::Critical { verdict, wave_limit, .. } => {
-                let (feasible, status) = (verdict.feasible(), verdict.status());
-                Some(match verdict {
-                    VerdictAnswer::Critical(CriticalReport { speed, frequency_hz, kind, cable }) => {
+            Answer::Critical { verdict, wave_limit, .. } => {
+                let (feasible, status) = (verdict.feasible(), StatusReport::from(verdict.status()));
+                Some(match verdict.critical().map(CriticalReport::from) {
+                    Some(CriticalReport { speed, frequency_hz, kind, cable }) => {
                         json!([at.x, at.y, feasible, speed, frequency_hz, kind, cable, wave_limit, status])
                     }
-                    _ => json!([at.x, at.y, feasible, null, null, null, null, wave_limit, status]),
+                    None => json!([at.x, at.y, feasible, null, null, null, null, wave_limit, status]),
                 })
             }
-            PlaceAnswer::Growth(Ok(rate)) => Some(json!([at.x, at.y, rate, StatusReport::Found])),
-            PlaceAnswer::Growth(Err(missing)) => Some(json!([at.x, at.y, null, missing.status()])),
-            PlaceAnswer::Spectrum(_) | PlaceAnswer::Modes(_) => None,
+            Answer::Growth(Ok(rate)) => Some(json!([at.x, at.y, rate, StatusReport::Found])),
+            Answer::Growth(Err(reason)) => Some(json!([at.x, at.y, null, StatusReport::from(reason.status())])),
+            Answer::Spectrum(_) | Answer::Modes(_) => None,
         }
     };
     known.places.iter().enumerate().filter_map(row).collect()

@@ -9,7 +9,9 @@ use crate::compute::protocol::{
     CriticalAnswer, Job, ModeChoice, PoseAnswer, Reply, Request, StudyNews, Topic, Update, Which,
 };
 use crate::scenario::Scenario;
-use crate::scenario::report::{CriticalReport, DEFAULT_MAX_SPEED, SensitivityReport};
+use crate::scenario::report::DEFAULT_MAX_SPEED;
+use crate::stability::Critical;
+use crate::study::Sensitivity;
 
 /// Why a design cannot be pinned.
 const NO_ANSWER: &str = "A pose without an answer cannot be pinned.";
@@ -108,7 +110,7 @@ impl Pinned {
     }
 
     /// How its critical speed depends on each parameter.
-    pub fn sensitivities(&self) -> Option<&[SensitivityReport]> {
+    pub fn sensitivities(&self) -> Option<&[Sensitivity]> {
         self.answers.sensitivities().and_then(|(found, _)| found.as_deref().ok())
     }
 
@@ -118,7 +120,7 @@ impl Pinned {
     }
 
     /// Its critical speed.
-    pub fn critical(&self) -> Option<&CriticalReport> {
+    pub fn critical(&self) -> Option<&Critical> {
         self.search()?.critical.as_ref()
     }
 

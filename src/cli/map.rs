@@ -66,7 +66,7 @@ pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
         let (verdict, wave_limit) = match study.answer(&robot, index) {
             Found::Critical { verdict, wave_limit, .. } => (verdict, wave_limit),
             // Not what this study asks for.
-            Found::Growth(_) | Found::Spectrum(_) => (Verdict::Unknown, None),
+            Found::Growth(_) | Found::Spectrum(_) | Found::Modes(_) => (Verdict::Unknown, None),
         };
         Row { swept: Vec::new(), position: grid.position(index), verdict, wave_limit }
     };

@@ -18,12 +18,12 @@ use super::protocol::{
 };
 use crate::mechanics::CableShape;
 use crate::robot::{Motion, Robot, Vec2};
-use crate::scenario::report::{CriticalReport, SensitivityReport, StatusReport, sentence};
+use crate::scenario::report::{StatusReport, sentence};
 use crate::scenario::{Report, Scenario};
 use crate::stability::steps::step;
 use crate::stability::{self, CriticalSearch, ModeValue, Outcome, Polarisation, Spectrum, Steps};
 use crate::study::validation::CHECKS;
-use crate::study::{Local, sensitivities_in_steps};
+use crate::study::{Local, Sensitivity, sensitivities_in_steps};
 
 /// A slice ends after this time, so that a newer request is seen soon.
 const SLICE: Duration = Duration::from_millis(8);
@@ -108,7 +108,7 @@ enum Stage {
         steps: Steps<Vec<[f64; 2]>>,
         since: Instant,
     },
-    Sensitivities(Steps<Result<Vec<SensitivityReport>, String>>),
+    Sensitivities(Steps<Result<Vec<Sensitivity>, String>>),
     Done,
 }
 
@@ -420,7 +420,7 @@ impl Pose {
     }
 
     /// What each parameter does to the critical speed that was found, or why that cannot be told.
-    fn sensitivities(&self) -> Steps<Result<Vec<SensitivityReport>, String>> {
+    fn sensitivities(&self) -> Steps<Result<Vec<Sensitivity>, String>> {
         let critical = match &self.outcome {
             Some(Ok(Outcome::Found(critical))) => Ok(critical.clone()),
             Some(Err(_)) => Err("The critical speed is not known.".into()),
@@ -431,7 +431,7 @@ impl Pose {
         let (robot, motion) = (self.robot.clone(), self.motion);
         Steps::new(async move {
             let found = sensitivities_in_steps(&robot, &motion, &critical?).await;
-            Ok(found.map_err(|reason| sentence(&reason.to_string()))?.iter().map(SensitivityReport::from).collect())
+            found.map_err(|reason| sentence(&reason.to_string()))
         })
     }
 
@@ -475,7 +475,7 @@ impl Pose {
                 let points: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
                 let scanned = points.last().map_or(0.0, |point| point[0]);
                 let mut replies = vec![self.reply(Update::Critical(CriticalAnswer {
-                    critical: outcome.as_ref().ok().and_then(CriticalReport::of),
+                    critical: outcome.as_ref().ok().and_then(Outcome::critical).cloned(),
                     failure: outcome.as_ref().err().cloned(),
                     searched_up_to: if outcome.is_ok() { self.limit } else { scanned },
                     elapsed_ms: 1e3 * self.submitted.elapsed().as_secs_f64(),
@@ -526,9 +526,7 @@ fn check(index: usize) -> Slice {
         name: check.name.into(),
         source: check.source.into(),
         unit: check.unit.into(),
-        outcome: (check.run)()
-            .map(|outcome| [outcome.expected, outcome.got, outcome.tolerance])
-            .map_err(|reason| sentence(&reason.to_string())),
+        outcome: (check.run)().map_err(|reason| sentence(&reason.to_string())),
     });
     answer.map(|answer| Reply { revision: 0, update: Update::Checked(Box::new(answer)) }).into_iter().collect()
 }

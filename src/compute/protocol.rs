@@ -5,9 +5,9 @@ use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 use crate::scenario::Report;
-use crate::scenario::report::{CriticalReport, SensitivityReport, StatusReport};
-use crate::stability::Mode;
-use crate::study::NoAnswer;
+use crate::stability::{Critical, Mode};
+use crate::study::validation::Outcome;
+use crate::study::{Answer, Sensitivity, Study};
 
 /// Names a state of the document; later states have larger numbers.
 pub type Revision = u64;
@@ -78,7 +78,7 @@ pub enum Update {
     /// The growth rate against speed, to somewhat beyond the critical one: [speed in m/s, max Re λ in 1/s].
     Curve(Vec<[f64; 2]>),
     /// What each parameter does to the critical speed; or as a sentence why that cannot be told. The last of a pose.
-    Sensitivities(Result<Vec<SensitivityReport>, String>),
+    Sensitivities(Result<Vec<Sensitivity>, String>),
     /// A mode's shape.
     Shape(Box<ModeShape>),
     /// A check against a known number; it belongs to no state of the document.
@@ -135,7 +135,7 @@ pub struct DrawnShape {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CriticalAnswer {
     /// The first crossing, if there is one.
-    pub critical: Option<CriticalReport>,
+    pub critical: Option<Critical>,
     /// Where the search has failed, so that the critical speed is not known: why, as a sentence.
     pub failure: Option<String>,
     /// The limit of the search in m/s; where it has failed, the speed that it had come to.
@@ -149,7 +149,7 @@ impl CriticalAnswer {
     pub fn completed(&self, mut report: Report) -> Report {
         match &self.failure {
             Some(reason) => report.set_failed(reason.clone(), self.searched_up_to),
-            None => report.set_critical(self.critical.clone(), self.searched_up_to),
+            None => report.set_critical(self.critical.as_ref(), self.searched_up_to),
         }
         report
     }
@@ -168,8 +168,8 @@ pub struct CheckAnswer {
     pub source: String,
     /// The unit of the values; empty for plain numbers.
     pub unit: String,
-    /// The expected value, the one computed and the tolerance; or why there is none, as a sentence.
-    pub outcome: Result<[f64; 3], String>,
+    /// What it has come to; or why there is nothing to compare, as a sentence.
+    pub outcome: Result<Outcome, String>,
 }
 
 /// One row of the table of modes.
@@ -235,187 +235,29 @@ pub enum Topic {
     Modes,
 }
 
-/// A study that is wanted of a scenario.
+impl Topic {
+    /// What a study is about.
+    pub fn of(study: &Study) -> Self {
+        match study {
+            Study::Line { .. } => Self::Line,
+            Study::Map { .. } => Self::Map,
+            Study::Polar { .. } => Self::Polar,
+            Study::Speeds { .. } => Self::Campbell,
+            Study::Elements { .. } => Self::Convergence,
+            Study::Modes { .. } => Self::Modes,
+        }
+    }
+}
+
+/// A study that is wanted of a robot.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StudyJob {
     /// The document's state that this is.
     pub revision: Revision,
-    /// The scenario as in its file.
+    /// The scenario with the robot, as in its file; its motion does not matter.
     pub scenario: String,
-    /// What is wanted of it.
-    pub study: StudyChoice,
-}
-
-/// A study; pose, direction and speed are the scenario's. Speeds in m/s; up to a `max_speed`, finite and greater than
-/// 0, critical speeds are searched for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum StudyChoice {
-    /// Critical speeds along the motion, from border to border of the workspace.
-    Line {
-        /// How many places.
-        points: usize,
-        /// See [`StudyChoice`].
-        max_speed: f64,
-    },
-    /// A map over the workspace.
-    Map {
-        /// Points in a row.
-        nx: usize,
-        /// Rows.
-        ny: usize,
-        /// In which directions.
-        directions: DirectionsChoice,
-        /// What it shows.
-        asked: AskedChoice,
-    },
-    /// Critical speeds in every direction.
-    Polar {
-        /// How many directions.
-        count: usize,
-        /// See [`StudyChoice`].
-        max_speed: f64,
-    },
-    /// All eigenvalues from rest to a speed.
-    Campbell {
-        /// The highest speed.
-        to: f64,
-        /// How many speeds.
-        count: usize,
-    },
-    /// Critical speeds on several meshes.
-    Convergence {
-        /// Elements per cable of each.
-        counts: Vec<usize>,
-        /// See [`StudyChoice`].
-        max_speed: f64,
-    },
-    /// Eigenvalues of successive speeds joined to modes, [`campbell::track`](crate::study::campbell::track): one place.
-    Modes {
-        /// Speeds in rising order, and [Re λ, Im λ] in 1/s.
-        spectra: Vec<(f64, Vec<[f64; 2]>)>,
-    },
-}
-
-impl StudyChoice {
-    /// What it is about.
-    pub fn topic(&self) -> Topic {
-        match self {
-            Self::Line { .. } => Topic::Line,
-            Self::Map { .. } => Topic::Map,
-            Self::Polar { .. } => Topic::Polar,
-            Self::Campbell { .. } => Topic::Campbell,
-            Self::Convergence { .. } => Topic::Convergence,
-            Self::Modes { .. } => Topic::Modes,
-        }
-    }
-}
-
-/// In which directions a map looks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum DirectionsChoice {
-    /// In the scenario's.
-    Motion,
-    /// In the worst of 16.
-    Worst,
-}
-
-/// What a map shows.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub enum AskedChoice {
-    /// The critical speed.
-    Critical {
-        /// See [`StudyChoice`].
-        max_speed: f64,
-    },
-    /// The largest growth rate at the scenario's speed.
-    Growth,
-}
-
-/// What is known at one place of a study; places are numbered as in [`Study`](crate::study::Study).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum PlaceAnswer {
-    /// The critical speed.
-    Critical {
-        /// The unit vector of the motion; of several directions the worst one.
-        direction: [f64; 2],
-        /// What is known.
-        verdict: VerdictAnswer,
-        /// The wave limit in m/s, of several directions the lowest; `None` where there is none.
-        wave_limit: Option<f64>,
-    },
-    /// max Re λ in 1/s, or why it is not known.
-    Growth(Result<f64, Missing>),
-    /// [Re λ, Im λ] in 1/s, Im λ ≥ 0, in rising order of frequency; or why they are not known.
-    Spectrum(Result<Vec<[f64; 2]>, Missing>),
-    /// Modes, or why they are not known.
-    Modes(Result<Vec<ModePoints>, Missing>),
-}
-
-/// One mode: the speeds in m/s at which it exists, and [Re λ, Im λ] in 1/s.
-pub type ModePoints = Vec<(f64, [f64; 2])>;
-
-/// Why a pose has no eigenvalues.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Missing {
-    /// It has no taut equilibrium.
-    Infeasible,
-    /// Its statics or its eigenvalues could not be computed.
-    Failed,
-}
-
-impl Missing {
-    /// As tables tell it.
-    pub fn status(self) -> StatusReport {
-        match self {
-            Self::Infeasible => StatusReport::Infeasible,
-            Self::Failed => StatusReport::Failed,
-        }
-    }
-}
-
-impl From<NoAnswer> for Missing {
-    fn from(reason: NoAnswer) -> Self {
-        match reason {
-            NoAnswer::Infeasible => Self::Infeasible,
-            NoAnswer::Failed => Self::Failed,
-        }
-    }
-}
-
-/// The critical speed, or why there is none.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub enum VerdictAnswer {
-    /// The pose has no taut equilibrium.
-    Infeasible,
-    /// The statics could not be computed, or the attempt was lost: nothing is known.
-    Unknown,
-    /// The pose has a taut equilibrium, but the search for its critical speed has failed: not known.
-    NotConverged,
-    /// Every speed up to this one (m/s) is stable.
-    NoneUpTo(f64),
-    /// The first crossing.
-    Critical(CriticalReport),
-}
-
-impl VerdictAnswer {
-    /// Whether the pose has a taut equilibrium; `None` where that is not known.
-    pub fn feasible(&self) -> Option<bool> {
-        match self {
-            Self::Infeasible => Some(false),
-            Self::Unknown => None,
-            Self::NotConverged | Self::NoneUpTo(_) | Self::Critical(_) => Some(true),
-        }
-    }
-
-    /// How the search ended, as tables tell it.
-    pub fn status(&self) -> StatusReport {
-        match self {
-            Self::Infeasible => StatusReport::Infeasible,
-            Self::Unknown | Self::NotConverged => StatusReport::Failed,
-            Self::NoneUpTo(_) => StatusReport::None,
-            Self::Critical(_) => StatusReport::Found,
-        }
-    }
+    /// What is wanted of the robot.
+    pub study: Study,
 }
 
 /// News of a study.
@@ -428,7 +270,7 @@ pub enum StudyNews {
         /// The document's state that it is of.
         revision: Revision,
         /// Places and what is known there; no place comes twice.
-        answers: Vec<(usize, PlaceAnswer)>,
+        answers: Vec<(usize, Answer)>,
     },
     /// All places are answered.
     Finished {
@@ -503,7 +345,7 @@ pub struct Batch {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BatchAnswer {
     /// The first so many of the batch's places: a worker stops when it has taken its time.
-    pub answers: Vec<(usize, PlaceAnswer)>,
+    pub answers: Vec<(usize, Answer)>,
     /// How long it took, in s.
     pub seconds: f64,
 }

@@ -6,6 +6,7 @@ use crate::robot::Robot;
 
 /// A parameter of a robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub enum Knob {
     /// E.
     YoungsModulus,

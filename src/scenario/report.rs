@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError, WaveLimit};
 use crate::robot::{Motion, Robot};
 use crate::stability::{
-    Critical, CriticalSearch, Eigenproblem, Kind, Method, NotConverged, Outcome, Spectrum, unstable_eigenvalues,
+    Critical, CriticalSearch, Eigenproblem, Kind, Method, NotConverged, Spectrum, unstable_eigenvalues,
 };
-use crate::study::{Knob, Local, Sensitivity, Status};
+use crate::study::{Knob, Local, Status};
 
 /// The name and version of the format.
 pub const SCHEMA: &str = "tautline/analysis/1";
@@ -139,6 +139,15 @@ pub enum KindReport {
     Divergence,
 }
 
+impl From<Kind> for KindReport {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::Flutter => Self::Flutter,
+            Kind::Divergence => Self::Divergence,
+        }
+    }
+}
+
 impl std::fmt::Display for KindReport {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
@@ -148,67 +157,17 @@ impl std::fmt::Display for KindReport {
     }
 }
 
-/// What one parameter does to the critical speed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SensitivityReport {
-    /// The parameter p.
-    pub knob: KnobReport,
-    /// d ln v/d ln p of the critical speed v: percent per percent.
-    pub speed: f64,
-    /// The same of the frequency of the crossing eigenvalue; none for divergence.
-    pub frequency: Option<f64>,
-}
-
-/// A parameter of the robot.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum KnobReport {
-    /// E.
-    YoungsModulus,
-    /// A.
-    Area,
-    /// μ.
-    MassPerLength,
-    /// m.
-    PlatformMass,
-    /// A factor on the prescribed tension of this cable, 1-based.
-    Tension(usize),
-    /// α.
-    Alpha,
-    /// β.
-    Beta,
-    /// g.
-    Gravity,
-}
-
-impl std::fmt::Display for KnobReport {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::YoungsModulus => f.write_str("youngs_modulus"),
-            Self::Area => f.write_str("area"),
-            Self::MassPerLength => f.write_str("mass_per_length"),
-            Self::PlatformMass => f.write_str("platform_mass"),
-            Self::Tension(cable) => write!(f, "tension_{cable}"),
-            Self::Alpha => f.write_str("alpha"),
-            Self::Beta => f.write_str("beta"),
-            Self::Gravity => f.write_str("gravity"),
-        }
-    }
-}
-
-impl From<&Sensitivity> for SensitivityReport {
-    fn from(&Sensitivity { knob, speed, frequency }: &Sensitivity) -> Self {
-        let knob = match knob {
-            Knob::YoungsModulus => KnobReport::YoungsModulus,
-            Knob::Area => KnobReport::Area,
-            Knob::MassPerLength => KnobReport::MassPerLength,
-            Knob::PlatformMass => KnobReport::PlatformMass,
-            Knob::Tension(cable) => KnobReport::Tension(cable + 1),
-            Knob::Alpha => KnobReport::Alpha,
-            Knob::Beta => KnobReport::Beta,
-            Knob::Gravity => KnobReport::Gravity,
-        };
-        Self { knob, speed, frequency }
+/// A parameter's name in tables.
+pub fn parameter(knob: Knob) -> String {
+    match knob {
+        Knob::YoungsModulus => "youngs_modulus".into(),
+        Knob::Area => "area".into(),
+        Knob::MassPerLength => "mass_per_length".into(),
+        Knob::PlatformMass => "platform_mass".into(),
+        Knob::Tension(cable) => format!("tension_{}", cable + 1),
+        Knob::Alpha => "alpha".into(),
+        Knob::Beta => "beta".into(),
+        Knob::Gravity => "gravity".into(),
     }
 }
 
@@ -225,23 +184,14 @@ impl CableReport {
     }
 }
 
-impl CriticalReport {
-    /// What a search has found, if anything.
-    pub fn of(outcome: &Outcome) -> Option<Self> {
-        match outcome {
-            Outcome::Found(critical) => Some(critical.into()),
-            Outcome::NoneUpTo(_) => None,
-        }
-    }
-}
-
 impl From<&Critical> for CriticalReport {
     fn from(critical: &Critical) -> Self {
-        let kind = match critical.kind {
-            Kind::Flutter => KindReport::Flutter,
-            Kind::Divergence => KindReport::Divergence,
-        };
-        Self { speed: critical.speed, frequency_hz: critical.frequency_hz(), kind, cable: critical.cable + 1 }
+        Self {
+            speed: critical.speed,
+            frequency_hz: critical.frequency_hz(),
+            kind: critical.kind.into(),
+            cable: critical.cable + 1,
+        }
     }
 }
 
@@ -312,10 +262,10 @@ impl Report {
     }
 
     /// Enters the end of the search for the critical speed up to `limit`: what was found, if anything was.
-    pub fn set_critical(&mut self, critical: Option<CriticalReport>, limit: f64) {
+    pub fn set_critical(&mut self, critical: Option<&Critical>, limit: f64) {
         self.searched_up_to = limit;
         self.status = Some(if critical.is_some() { StatusReport::Found } else { StatusReport::None });
-        self.critical = critical;
+        self.critical = critical.map(CriticalReport::from);
     }
 
     /// Enters that the search has failed for a `reason`, a sentence, after it had come to a speed (m/s): the critical speed
@@ -365,7 +315,7 @@ impl Report {
             watch(search.searched_up_to());
             match search.advance(&local.vibration) {
                 Ok(None) => {}
-                Ok(Some(outcome)) => return self.set_critical(CriticalReport::of(&outcome), limit),
+                Ok(Some(outcome)) => return self.set_critical(outcome.critical(), limit),
                 Err(error) => return self.set_failed(sentence(&error.to_string()), search.searched_up_to()),
             }
         }

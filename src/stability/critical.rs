@@ -40,6 +40,7 @@ const FROM_REST: f64 = 0.0625;
 
 /// How stability is lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub enum Kind {
     /// An oscillation grows.
     Flutter,
@@ -49,6 +50,7 @@ pub enum Kind {
 
 /// The first crossing.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct Critical {
     /// The critical speed in m/s.
     pub speed: f64,
@@ -86,6 +88,16 @@ pub enum Outcome {
     Found(Critical),
     /// Every speed up to the limit (m/s) is stable.
     NoneUpTo(f64),
+}
+
+impl Outcome {
+    /// The first crossing, where one was found.
+    pub fn critical(&self) -> Option<&Critical> {
+        match self {
+            Self::Found(critical) => Some(critical),
+            Self::NoneUpTo(_) => None,
+        }
+    }
 }
 
 /// How the critical speed is searched for.

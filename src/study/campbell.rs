@@ -19,6 +19,7 @@ const NEAR_AT_FIRST: f64 = 0.5;
 
 /// One mode over the speeds at which it exists.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct Track {
     /// Speed in m/s and eigenvalue in 1/s, at successive speeds of the study.
     pub points: Vec<(f64, Complex<f64>)>,

@@ -71,6 +71,7 @@ pub(super) fn coarse_first_in_a_row(count: usize) -> Vec<usize> {
 
 /// Equally spaced points of a rectangle, the border included.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct Grid {
     /// The lower left corner in m.
     pub low: Vec2,
@@ -91,7 +92,7 @@ impl Grid {
 
     /// How many points there are.
     pub fn len(&self) -> usize {
-        self.nx * self.ny
+        self.nx.saturating_mul(self.ny)
     }
 
     /// Whether there is no point.
@@ -116,6 +117,7 @@ impl Grid {
 
 /// Equally spaced points along a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct Line {
     /// Where it begins, in m.
     pub from: Vec2,

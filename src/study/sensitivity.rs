@@ -7,6 +7,7 @@ use crate::stability::{Critical, Crossing, Kind, NoSensitivity};
 
 /// What one parameter does to the crossing, as relative derivatives: percent per percent.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct Sensitivity {
     /// The parameter p.
     pub knob: Knob,

@@ -5,12 +5,14 @@ use nalgebra::Complex;
 
 use crate::robot::{Motion, Robot, RobotSpec, Vec2};
 use crate::stability::steps::finish;
+use crate::study::campbell::{self, Track};
 use crate::study::grid::coarse_first_in_a_row;
 use crate::study::verdict::verdict_in_steps;
 use crate::study::{Directions, Grid, Line, Local, NoAnswer, Verdict, compass, evenly};
 
 /// What a map shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub enum Asked {
     /// The critical speed.
     Critical {
@@ -27,6 +29,7 @@ pub enum Asked {
 /// A study: what is asked for, at [`Self::len`] places. Speeds in m/s; a `limit` is the speed up to which critical
 /// speeds are searched for, finite and greater than 0.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub enum Study {
     /// Critical speed and frequency along a motion: the paper's Fig. 3.
     Line {
@@ -76,10 +79,17 @@ pub enum Study {
         /// See [`Study`].
         limit: f64,
     },
+    /// The spectra of successive speeds joined to modes by [`campbell::track`](crate::study::campbell::track): one place,
+    /// which no robot has a part in.
+    Modes {
+        /// Speeds (m/s) in rising order, each with its eigenvalues (1/s).
+        spectra: Vec<(f64, Vec<Complex<f64>>)>,
+    },
 }
 
 /// What a study has found at one of its places.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub enum Answer {
     /// The critical speed: of a line, a map, a polar diagram, a mesh.
     Critical {
@@ -95,6 +105,8 @@ pub enum Answer {
     /// The eigenvalues in 1/s in rising order of frequency: of a complex pair the one with Im λ > 0, real ones each, of
     /// those that are equal by the problem's structure one. Or why they are not known.
     Spectrum(Result<Vec<Complex<f64>>, NoAnswer>),
+    /// The modes, or why they are not known.
+    Modes(Result<Vec<Track>, NoAnswer>),
 }
 
 impl Study {
@@ -105,6 +117,7 @@ impl Study {
             Self::Map { grid, .. } => grid.len(),
             Self::Polar { count, .. } | Self::Speeds { count, .. } => *count,
             Self::Elements { counts, .. } => counts.len(),
+            Self::Modes { .. } => 1,
         }
     }
 
@@ -123,7 +136,9 @@ impl Study {
                 order.sort_by_key(|&index| counts[index]);
                 order
             }
-            Self::Line { .. } | Self::Polar { .. } | Self::Speeds { .. } => coarse_first_in_a_row(self.len()),
+            Self::Line { .. } | Self::Polar { .. } | Self::Speeds { .. } | Self::Modes { .. } => {
+                coarse_first_in_a_row(self.len())
+            }
         }
     }
 
@@ -154,18 +169,32 @@ impl Study {
                 let elements = counts.get(index).copied().unwrap_or_default();
                 match Robot::new(RobotSpec { elements, ..(**robot).clone() }) {
                     Ok(robot) => critical(&robot, *position, *direction, *limit).await,
-                    Err(_) => Answer::unknown(*direction),
+                    Err(_) => unknown(*direction),
                 }
             }
+            Self::Modes { spectra } => Answer::Modes(Ok(campbell::track_in_steps(spectra).await)),
+        }
+    }
+
+    /// The answer at one place where the attempt at one was lost: nothing is known.
+    pub fn unknown(&self, index: usize) -> Answer {
+        match self {
+            Self::Line { line, .. } => unknown(line.direction),
+            Self::Map { asked: Asked::Growth { .. }, .. } => Answer::Growth(Err(NoAnswer::Failed)),
+            Self::Map { directions: Directions::One(direction), .. } | Self::Elements { direction, .. } => {
+                unknown(*direction)
+            }
+            Self::Map { directions: Directions::Worst(_), .. } => unknown(Vec2::x()),
+            Self::Polar { count, .. } => unknown(compass(index, *count)),
+            Self::Speeds { .. } => Answer::Spectrum(Err(NoAnswer::Failed)),
+            Self::Modes { .. } => Answer::Modes(Err(NoAnswer::Failed)),
         }
     }
 }
 
-impl Answer {
-    /// Where a critical speed is asked for and nothing is known.
-    pub fn unknown(direction: Vec2) -> Self {
-        Self::Critical { direction, verdict: Verdict::Unknown, wave_limit: None }
-    }
+/// The answer where a critical speed is asked for and nothing is known.
+fn unknown(direction: Vec2) -> Answer {
+    Answer::Critical { direction, verdict: Verdict::Unknown, wave_limit: None }
 }
 
 async fn critical(robot: &Robot, position: Vec2, direction: Vec2, limit: f64) -> Answer {

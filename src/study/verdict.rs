@@ -10,10 +10,12 @@ use crate::study::Local;
 
 /// The critical speed of a pose in one direction, or why there is none.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub enum Verdict {
     /// The pose has no taut equilibrium.
     Infeasible,
-    /// The statics could not be computed: nothing is known, not even whether there is an equilibrium.
+    /// The statics could not be computed, or the attempt was lost: nothing is known, not even whether there is an
+    /// equilibrium.
     Unknown,
     /// The pose has a taut equilibrium, but the search for its critical speed has failed: not known.
     NotConverged,
@@ -77,11 +79,22 @@ pub enum Status {
 
 /// Why a pose has no eigenvalues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub enum NoAnswer {
     /// It has no taut equilibrium.
     Infeasible,
     /// Its statics or its eigenvalues could not be computed.
     Failed,
+}
+
+impl NoAnswer {
+    /// How the search for the eigenvalues ended.
+    pub fn status(self) -> Status {
+        match self {
+            Self::Infeasible => Status::Infeasible,
+            Self::Failed => Status::Failed,
+        }
+    }
 }
 
 impl From<&Failure> for NoAnswer {
@@ -133,6 +146,7 @@ const BEYOND: f64 = 1e-3;
 
 /// In which directions the platform moves through a pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub enum Directions {
     /// In this one, of any length but zero.
     One(Vec2),

@@ -9,7 +9,7 @@ use crate::app::meaning::Explain as _;
 use crate::app::{digits, theme};
 use crate::compute::protocol::CriticalAnswer;
 use crate::scenario::Scenario;
-use crate::scenario::report::{CriticalReport, KindReport};
+use crate::stability::{Critical, Kind};
 
 /// What the criterion means; also the tooltip of the figure.
 const FROZEN_TIME: &str = "The critical speed of this method is where an eigenvalue of the robot, frozen at this moment \
@@ -89,15 +89,15 @@ fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool
     if let Some(why) = at_rest(critical, &document.scenario) {
         ui.label(why);
     }
-    let rate = answers.pose().and_then(|pose| pose.report.cables.get(critical.cable - 1)).map(|c| c.length_rate);
+    let rate = answers.pose().and_then(|pose| pose.report.cables.get(critical.cable)).map(|c| c.length_rate);
     let moving = rate.map_or("", |rate| if rate < 0.0 { ", being reeled in" } else { ", being paid out" });
     let kind = match critical.kind {
-        KindReport::Flutter => {
-            format!("Flutter at {}", settings.frequency_text(critical.frequency_hz, certainty.frequency_hz()))
+        Kind::Flutter => {
+            format!("Flutter at {}", settings.frequency_text(critical.frequency_hz(), certainty.frequency_hz()))
         }
-        KindReport::Divergence => "Divergence (no oscillation)".into(),
+        Kind::Divergence => "Divergence (no oscillation)".into(),
     };
-    ui.colored_label(shade(visuals.text_color()), format!("{kind} · cable {}{moving}", critical.cable));
+    ui.colored_label(shade(visuals.text_color()), format!("{kind} · cable {}{moving}", critical.cable + 1));
 
     let speed = document.scenario.motion.speed;
     let margin = critical.speed - speed;
@@ -128,7 +128,7 @@ fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool
 }
 
 /// Why the critical speed is zero, where it is.
-pub fn at_rest(critical: &CriticalReport, scenario: &Scenario) -> Option<&'static str> {
+pub fn at_rest(critical: &Critical, scenario: &Scenario) -> Option<&'static str> {
     let undamped = scenario.damping.alpha == 0.0 && scenario.damping.beta == 0.0;
     (critical.speed == 0.0).then_some(if undamped {
         "Without damping every cable that is reeled in looks unstable at any speed, however low: the criterion freezes \
@@ -143,7 +143,7 @@ fn difference(ui: &mut Ui, facts: Facts<'_>, answer: Option<&CriticalAnswer>) {
     let Some(pinned) = facts.pinned else { return };
     let now = answer.and_then(|answer| answer.critical.as_ref());
     let not_known = |answer: Option<&CriticalAnswer>| answer.is_some_and(|answer| answer.failure.is_some());
-    let text = |critical: &CriticalReport, certainty: Certainty| digits::certain(critical.speed, certainty.speed());
+    let text = |critical: &Critical, certainty: Certainty| digits::certain(critical.speed, certainty.speed());
     let text = match (pinned.critical(), now) {
         _ if !pinned.is_complete() => "Pinned, being computed".into(),
         (Some(before), None) if not_known(answer) => {
@@ -152,7 +152,7 @@ fn difference(ui: &mut Ui, facts: Facts<'_>, answer: Option<&CriticalAnswer>) {
         (None, _) if not_known(pinned.search()) => "Pinned: not known".into(),
         (Some(before), Some(now)) => {
             let (hertz, unit) = facts.settings.hertz();
-            let frequency = (now.frequency_hz - before.frequency_hz) * hertz;
+            let frequency = (now.frequency_hz() - before.frequency_hz()) * hertz;
             let difference = now.speed - before.speed;
             // What the mesh does to both it does to their difference in proportion.
             let share = facts.share();

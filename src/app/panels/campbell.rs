@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use eframe::egui::emath::smart_aim::best_in_range_f64;
 use eframe::egui::{Id, Ui, Vec2, Visuals};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoints, PlotUi, Points, VLine};
+use nalgebra::Complex;
 
 use super::{explain, few_lines, plot_height, study};
 use crate::app::Facts;
@@ -83,7 +84,7 @@ pub fn ui(
             }
             if let Some(pinned) = pinned {
                 let colour = theme::pinned(&visuals);
-                let value = |[re, im]: [f64; 2]| if growth { re } else { im / TAU * hertz };
+                let value = |of: Complex<f64>| if growth { of.re } else { of.im / TAU * hertz };
                 let points: Vec<[f64; 2]> = pinned
                     .study(Topic::Campbell)
                     .map(series::spectra)

@@ -14,7 +14,8 @@ use crate::app::meaning::Explain as _;
 use crate::app::series::{self, degrees};
 use crate::app::studies::{Known, Shown};
 use crate::app::theme;
-use crate::compute::protocol::{Topic, VerdictAnswer};
+use crate::compute::protocol::Topic;
+use crate::study::Verdict;
 
 /// Draws the diagram and what follows from it.
 pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
@@ -76,7 +77,8 @@ fn draw(
     today: [f64; 2],
     (worst, speed): ([f64; 2], f64),
 ) {
-    let speeds = series::directions(known).into_iter().filter_map(|(_, verdict)| radius(verdict));
+    let verdicts = series::directions(known).into_iter().filter_map(|(_, verdict)| verdict);
+    let speeds = verdicts.filter_map(Verdict::critical).map(|critical| critical.speed);
     let largest = speeds.fold(1e-3, f64::max);
     rings(plot, visuals, largest);
     let colour = if current { theme::calm(visuals) } else { visuals.weak_text_color() };
@@ -95,13 +97,6 @@ fn draw(
 
 fn at([x, y]: [f64; 2], radius: f64) -> [f64; 2] {
     [radius * x, radius * y]
-}
-
-fn radius(verdict: Option<&VerdictAnswer>) -> Option<f64> {
-    match verdict {
-        Some(VerdictAnswer::Critical(critical)) => Some(critical.speed),
-        _ => None,
-    }
 }
 
 /// Once around, stretch by stretch; a direction that stands alone is a point.

@@ -11,7 +11,7 @@ use crate::app::state::UiState;
 use crate::app::theme;
 use crate::robot::TensionLaw;
 use crate::scenario::Scenario;
-use crate::scenario::report::{KnobReport, SensitivityReport};
+use crate::study::{Knob, Sensitivity};
 
 /// Height of a bar with its room, in points.
 const ROW: f32 = 26.0;
@@ -57,13 +57,7 @@ pub fn ui(ui: &mut Ui, state: &mut UiState, facts: Facts<'_>) {
 }
 
 /// One bar; whether it was clicked.
-fn bar(
-    ui: &mut Ui,
-    one: &SensitivityReport,
-    [largest, uncertainty]: [f64; 2],
-    then: Option<f64>,
-    current: bool,
-) -> bool {
+fn bar(ui: &mut Ui, one: &Sensitivity, [largest, uncertainty]: [f64; 2], then: Option<f64>, current: bool) -> bool {
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
     let name = name(one.knob);
     let value = at_least_the_place(one.speed, uncertainty);
@@ -115,36 +109,33 @@ fn at_least_the_place(value: f64, uncertainty: f64) -> String {
     if value.abs() < 0.1 * uncertainty { "0".into() } else { digits::with_sign(value, Some(uncertainty)) }
 }
 
-fn name(knob: KnobReport) -> String {
+fn name(knob: Knob) -> String {
     match knob {
-        KnobReport::YoungsModulus => "E, Young's mod.".into(),
-        KnobReport::Area => "A, area".into(),
-        KnobReport::MassPerLength => "μ, cable mass".into(),
-        KnobReport::PlatformMass => "m, platform".into(),
-        KnobReport::Tension(cable) => format!("T, cable {cable}"),
-        KnobReport::Alpha => "α, damping".into(),
-        KnobReport::Beta => "β, damping".into(),
-        KnobReport::Gravity => "g, gravity".into(),
+        Knob::YoungsModulus => "E, Young's mod.".into(),
+        Knob::Area => "A, area".into(),
+        Knob::MassPerLength => "μ, cable mass".into(),
+        Knob::PlatformMass => "m, platform".into(),
+        Knob::Tension(cable) => format!("T, cable {}", cable + 1),
+        Knob::Alpha => "α, damping".into(),
+        Knob::Beta => "β, damping".into(),
+        Knob::Gravity => "g, gravity".into(),
     }
 }
 
 /// The control that turns a knob: of a tension law its first coefficient.
-fn control(knob: KnobReport, scenario: &Scenario) -> Number {
+fn control(knob: Knob, scenario: &Scenario) -> Number {
     match knob {
-        KnobReport::YoungsModulus => Number::YoungsModulus,
-        KnobReport::Area => Number::Area,
-        KnobReport::MassPerLength => Number::MassPerLength,
-        KnobReport::PlatformMass => Number::PlatformMass,
-        KnobReport::Alpha => Number::Alpha,
-        KnobReport::Beta => Number::Beta,
-        KnobReport::Gravity => Number::Gravity,
-        KnobReport::Tension(cable) => {
-            let cable = cable.saturating_sub(1);
-            match scenario.cables.get(cable).map(|cable| cable.tension) {
-                Some(TensionLaw::Hypot { .. }) => Number::Horizontal(cable, 0),
-                _ => Number::Tension(cable),
-            }
-        }
+        Knob::YoungsModulus => Number::YoungsModulus,
+        Knob::Area => Number::Area,
+        Knob::MassPerLength => Number::MassPerLength,
+        Knob::PlatformMass => Number::PlatformMass,
+        Knob::Alpha => Number::Alpha,
+        Knob::Beta => Number::Beta,
+        Knob::Gravity => Number::Gravity,
+        Knob::Tension(cable) => match scenario.cables.get(cable).map(|cable| cable.tension) {
+            Some(TensionLaw::Hypot { .. }) => Number::Horizontal(cable, 0),
+            _ => Number::Tension(cable),
+        },
     }
 }
 
@@ -158,15 +149,15 @@ mod tests {
     #[test]
     fn every_knob_has_its_control() {
         let knobs = [
-            KnobReport::YoungsModulus,
-            KnobReport::Area,
-            KnobReport::MassPerLength,
-            KnobReport::PlatformMass,
-            KnobReport::Tension(3),
-            KnobReport::Tension(4),
-            KnobReport::Alpha,
-            KnobReport::Beta,
-            KnobReport::Gravity,
+            Knob::YoungsModulus,
+            Knob::Area,
+            Knob::MassPerLength,
+            Knob::PlatformMass,
+            Knob::Tension(2),
+            Knob::Tension(3),
+            Knob::Alpha,
+            Knob::Beta,
+            Knob::Gravity,
         ];
         for preset in presets::PRESETS {
             let scenario = preset.scenario();

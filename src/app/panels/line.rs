@@ -10,14 +10,14 @@ use crate::app::digits;
 use crate::app::gestures;
 use crate::app::series::Along;
 use crate::app::theme;
-use crate::compute::protocol::{Topic, VerdictAnswer};
-use crate::scenario::report::CriticalReport;
+use crate::compute::protocol::Topic;
+use crate::stability::Critical;
 
 /// Room for the values of both vertical axes, in points, so that the plots are one above the other.
 const AXIS: f32 = 46.0;
 
 /// What one of the two plots shows.
-type Value<'a> = &'a dyn Fn(&CriticalReport) -> f64;
+type Value<'a> = &'a dyn Fn(&Critical) -> f64;
 
 /// Draws the two plots.
 pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
@@ -39,7 +39,7 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     if let Some(findings) = findings {
         ui.label(findings);
     }
-    if along.points.iter().all(|(_, verdict)| !matches!(verdict, VerdictAnswer::Critical(_))) {
+    if along.points.iter().all(|(_, verdict)| verdict.critical().is_none()) {
         ui.weak("No critical speed anywhere on this line.");
     }
     if !along.infeasible().is_empty() {
@@ -51,7 +51,7 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     let frequency = format!("Frequency ({name})");
     let plots: [(&str, &str, Value<'_>, bool); 2] = [
         ("Critical speed (m/s)", "m/s", &|critical| critical.speed, false),
-        (&frequency, name, &|critical| critical.frequency_hz * hertz, true),
+        (&frequency, name, &|critical| critical.frequency_hz() * hertz, true),
     ];
     let before = pinned.and_then(|pinned| Along::new(pinned.study(Topic::Line)?));
     let group = Id::unique("along the line");

@@ -164,8 +164,10 @@ fn stretch(along: &Along, [from, to]: [f64; 2]) -> String {
 mod tests {
     use super::super::Abscissa;
     use super::*;
-    use crate::compute::protocol::VerdictAnswer;
-    use crate::scenario::report::{CriticalReport, KindReport};
+    use crate::stability::{Critical, Kind};
+    use crate::study::Verdict;
+    use nalgebra::Complex;
+    use std::f64::consts::TAU;
 
     /// Numbers from 0 to 1, the same in every run.
     struct Random(u64);
@@ -182,6 +184,10 @@ mod tests {
             let number = (self.next() * end) as usize;
             number
         }
+    }
+
+    fn critical(speed: f64, frequency_hz: f64, cable: usize) -> Critical {
+        Critical { speed, eigenvalue: Complex::new(0.0, frequency_hz * TAU), kind: Kind::Flutter, cable }
     }
 
     /// A line of some modes, each smooth, with gaps, on a robot of some size.
@@ -203,9 +209,9 @@ mod tests {
             let speed = 10.0 + 3.0 * a + 4.0 * b * x + 3.0 * c * (6.0 * x).sin();
             let frequency_hz = (1.0 + d + e * x * x + f * (5.0 * x).cos()).max(0.0);
             let verdict = if cable == 0 {
-                VerdictAnswer::Infeasible
+                Verdict::Infeasible
             } else {
-                VerdictAnswer::Critical(CriticalReport { speed, frequency_hz, kind: KindReport::Flutter, cable })
+                Verdict::Critical(critical(speed, frequency_hz, cable - 1))
             };
             points.push((at, verdict));
         }
@@ -248,7 +254,7 @@ mod tests {
             for quantity in [Quantity::Speed, Quantity::Frequency] {
                 for [from, to] in named(&text, quantity) {
                     told += 1;
-                    let mut within: Vec<&(f64, VerdictAnswer)> =
+                    let mut within: Vec<&(f64, Verdict)> =
                         along.points.iter().filter(|(at, _)| (from.min(to)..=from.max(to)).contains(at)).collect();
                     if from > to {
                         within.reverse();
@@ -256,14 +262,14 @@ mod tests {
                     assert!(within.len() + 2 >= PLACES, "{text}: {} places", within.len());
                     // Outward: away from the middle of what is named.
                     for pair in within.windows(2) {
-                        let (VerdictAnswer::Critical(a), VerdictAnswer::Critical(b)) = (&pair[0].1, &pair[1].1) else {
+                        let (Verdict::Critical(a), Verdict::Critical(b)) = (&pair[0].1, &pair[1].1) else {
                             panic!("{text}: a gap at {}", pair[0].0)
                         };
                         assert_eq!(a.cable, b.cable, "{text}: another mode at {}", pair[1].0);
                         match quantity {
                             Quantity::Speed => assert!(b.speed < a.speed, "{text}: not at {}", pair[1].0),
                             Quantity::Frequency => {
-                                assert!(b.frequency_hz > a.frequency_hz, "{text}: not at {}", pair[1].0);
+                                assert!(b.frequency_hz() > a.frequency_hz(), "{text}: not at {}", pair[1].0);
                             }
                         }
                     }
@@ -280,8 +286,7 @@ mod tests {
             .map(|i| {
                 let x = -5.0 + 0.25 * f64::from(i);
                 let frequency_hz = if x < 3.0 { 0.5 + x.max(0.0) } else { (3.5 - 2.0 * (x - 3.0)).max(0.0) };
-                let critical = CriticalReport { speed: 9.0, frequency_hz, kind: KindReport::Flutter, cable: 1 };
-                (x, VerdictAnswer::Critical(critical))
+                (x, Verdict::Critical(critical(9.0, frequency_hz, 0)))
             })
             .collect();
         let along =

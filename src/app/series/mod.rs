@@ -8,12 +8,10 @@ use std::f64::consts::TAU;
 use nalgebra::Complex;
 
 use crate::app::studies::Known;
-use crate::compute::protocol::{PlaceAnswer, StudyChoice, VerdictAnswer};
-use crate::scenario::report::{CriticalReport, KindReport};
-use crate::stability::{Critical, Kind, first_lowest};
+use crate::stability::{Critical, first_lowest};
 use crate::study::campbell::Track;
 use crate::study::convergence::{self, Convergence};
-use crate::study::{Verdict, compass, evenly};
+use crate::study::{Answer, Study, Verdict, compass, evenly};
 use segments::{Sample, segments};
 
 /// How a line's places are measured.
@@ -53,7 +51,7 @@ pub struct Along {
     /// How places are measured.
     pub abscissa: Abscissa,
     /// Place in m and what is known there, from left to right.
-    pub points: Vec<(f64, VerdictAnswer)>,
+    pub points: Vec<(f64, Verdict)>,
     /// The whole line, in m.
     pub range: [f64; 2],
     from: [f64; 2],
@@ -63,7 +61,7 @@ pub struct Along {
 impl Along {
     /// Those of `known`, where it is a line.
     pub fn new(known: &Known) -> Option<Self> {
-        let line = known.wish.line()?;
+        let Study::Line { line, .. } = &known.wish.study else { return None };
         let direction: [f64; 2] = line.direction.into();
         let abscissa = match direction {
             [_, 0.0] => Abscissa::X,
@@ -74,7 +72,7 @@ impl Along {
         let ends = [line.from, line.to].map(|end| along.place(end.into()));
         along.range = [ends[0].min(ends[1]), ends[0].max(ends[1])];
         for (index, answer) in known.places.iter().enumerate() {
-            if let Some(PlaceAnswer::Critical { verdict, .. }) = answer {
+            if let Some(Answer::Critical { verdict, .. }) = answer {
                 along.points.push((along.place(line.position(index).into()), verdict.clone()));
             }
         }
@@ -100,10 +98,10 @@ impl Along {
 
     /// Stretches of one mode, as points (m, `value`): where another mode comes first, and where nothing is critical, one
     /// ends.
-    pub fn stretches(&self, value: impl Fn(&CriticalReport) -> f64) -> Vec<Vec<[f64; 2]>> {
+    pub fn stretches(&self, value: impl Fn(&Critical) -> f64) -> Vec<Vec<[f64; 2]>> {
         let point = |i: usize| {
             let (at, verdict) = &self.points[i];
-            critical(verdict).map(|critical| [*at, value(critical)])
+            verdict.critical().map(|critical| [*at, value(critical)])
         };
         segments(&self.samples()).into_iter().map(|segment| segment.filter_map(point).collect()).collect()
     }
@@ -113,7 +111,7 @@ impl Along {
         let mut stretches: Vec<[f64; 2]> = Vec::new();
         let [low, high] = self.range;
         for (i, (at, verdict)) in self.points.iter().enumerate() {
-            if *verdict != VerdictAnswer::Infeasible {
+            if *verdict != Verdict::Infeasible {
                 continue;
             }
             let left = if i == 0 { low } else { 0.5 * (self.points[i - 1].0 + at) };
@@ -136,26 +134,18 @@ impl Along {
     }
 }
 
-/// The critical speed, where there is one.
-pub fn critical(verdict: &VerdictAnswer) -> Option<&CriticalReport> {
-    match verdict {
-        VerdictAnswer::Critical(critical) => Some(critical),
-        _ => None,
-    }
-}
-
 /// What a place of a curve of critical speeds shows, where there is one.
-fn sample(at: f64, verdict: Option<&VerdictAnswer>) -> Option<Sample> {
-    let critical = critical(verdict?)?;
-    let (values, mode) = ([critical.speed, critical.frequency_hz], Some((critical.kind, critical.cable)));
+fn sample(at: f64, verdict: Option<&Verdict>) -> Option<Sample> {
+    let critical = verdict?.critical()?;
+    let (values, mode) = ([critical.speed, critical.frequency_hz()], Some((critical.kind, critical.cable)));
     Some(Sample { at, values, mode })
 }
 
 /// The directions of a polar diagram: the unit vector and what is known, counterclockwise.
-pub fn directions<'a>(known: &'a Known) -> Vec<([f64; 2], Option<&'a VerdictAnswer>)> {
-    let StudyChoice::Polar { count, .. } = known.wish.study else { return Vec::new() };
-    let place = |(i, answer): (usize, &'a Option<PlaceAnswer>)| match answer {
-        Some(PlaceAnswer::Critical { verdict, .. }) => (compass(i, count).into(), Some(verdict)),
+pub fn directions<'a>(known: &'a Known) -> Vec<([f64; 2], Option<&'a Verdict>)> {
+    let Study::Polar { count, .. } = known.wish.study else { return Vec::new() };
+    let place = |(i, answer): (usize, &'a Option<Answer>)| match answer {
+        Some(Answer::Critical { verdict, .. }) => (compass(i, count).into(), Some(verdict)),
         _ => (compass(i, count).into(), None),
     };
     known.places.iter().enumerate().map(place).collect()
@@ -165,7 +155,7 @@ pub fn directions<'a>(known: &'a Known) -> Vec<([f64; 2], Option<&'a VerdictAnsw
 /// and back to the first direction; what is not known yet is no gap.
 pub fn around(known: &Known) -> Vec<Vec<[f64; 2]>> {
     let all = directions(known);
-    let known: Vec<([f64; 2], &VerdictAnswer)> =
+    let known: Vec<([f64; 2], &Verdict)> =
         all.iter().chain(all.first()).filter_map(|(direction, verdict)| Some((*direction, (*verdict)?))).collect();
     let mut turned = 0.0;
     let mut samples = Vec::with_capacity(known.len());
@@ -179,17 +169,14 @@ pub fn around(known: &Known) -> Vec<Vec<[f64; 2]>> {
     }
     let point = |i: usize| {
         let ([x, y], verdict) = known[i];
-        critical(verdict).map(|critical| [critical.speed * x, critical.speed * y])
+        verdict.critical().map(|critical| [critical.speed * x, critical.speed * y])
     };
     segments(&samples).into_iter().map(|segment| segment.filter_map(point).collect()).collect()
 }
 
 /// The direction with the lowest critical speed, and that speed in m/s.
 pub fn worst_direction(known: &Known) -> Option<([f64; 2], f64)> {
-    let speed = |(direction, verdict): ([f64; 2], Option<&VerdictAnswer>)| match verdict {
-        Some(VerdictAnswer::Critical(critical)) => Some((direction, critical.speed)),
-        _ => None,
-    };
+    let speed = |(direction, verdict): ([f64; 2], Option<&Verdict>)| Some((direction, verdict?.critical()?.speed));
     let critical: Vec<([f64; 2], f64)> = directions(known).into_iter().filter_map(speed).collect();
     first_lowest(critical.iter().map(|(_, speed)| *speed)).map(|index| critical[index])
 }
@@ -199,26 +186,26 @@ pub fn degrees([x, y]: [f64; 2]) -> f64 {
     y.atan2(x).to_degrees()
 }
 
-/// The eigenvalues of a Campbell diagram one by one: speed in m/s and [Re λ, Im λ] in 1/s.
-pub fn spectra(known: &Known) -> Vec<(f64, [f64; 2])> {
-    let StudyChoice::Campbell { to, count } = known.wish.study else { return Vec::new() };
+/// The eigenvalues of a Campbell diagram one by one: speed in m/s and eigenvalue in 1/s.
+pub fn spectra(known: &Known) -> Vec<(f64, Complex<f64>)> {
+    let Study::Speeds { to, count, .. } = known.wish.study else { return Vec::new() };
     let mut all = Vec::new();
     for (i, answer) in known.places.iter().enumerate() {
-        if let Some(PlaceAnswer::Spectrum(Ok(values))) = answer {
+        if let Some(Answer::Spectrum(Ok(values))) = answer {
             all.extend(values.iter().map(|&value| (evenly(0.0, to, i, count), value)));
         }
     }
     all
 }
 
-/// The spectra of a Campbell diagram up to `highest` Hz, to be joined to modes: speeds in m/s and [Re λ, Im λ] in 1/s. Speeds
+/// The spectra of a Campbell diagram up to `highest` Hz, to be joined to modes: speeds in m/s and eigenvalues in 1/s. Speeds
 /// that are not answered yet are left out.
-pub fn spectra_up_to(known: &Known, highest: f64) -> Vec<(f64, Vec<[f64; 2]>)> {
-    let StudyChoice::Campbell { to, count } = known.wish.study else { return Vec::new() };
+pub fn spectra_up_to(known: &Known, highest: f64) -> Vec<(f64, Vec<Complex<f64>>)> {
+    let Study::Speeds { to, count, .. } = known.wish.study else { return Vec::new() };
     // Somewhat more than is drawn, so that modes do not end below the edge; all of them would take long to join.
-    let drawn = |value: &&[f64; 2]| value[1] <= 1.5 * highest * TAU;
-    let spectrum = |(i, answer): (usize, &Option<PlaceAnswer>)| match answer {
-        Some(PlaceAnswer::Spectrum(Ok(values))) => {
+    let drawn = |value: &&Complex<f64>| value.im <= 1.5 * highest * TAU;
+    let spectrum = |(i, answer): (usize, &Option<Answer>)| match answer {
+        Some(Answer::Spectrum(Ok(values))) => {
             Some((evenly(0.0, to, i, count), values.iter().filter(drawn).copied().collect()))
         }
         _ => None,
@@ -277,7 +264,7 @@ fn by_stability(points: &[(f64, Complex<f64>)]) -> Vec<Piece> {
 #[derive(Clone, Debug)]
 pub struct Meshes {
     /// Elements per cable and what is known, from the coarsest on.
-    pub points: Vec<(usize, VerdictAnswer)>,
+    pub points: Vec<(usize, Verdict)>,
     /// What they say about ever finer meshes.
     pub limit: Convergence,
 }
@@ -289,49 +276,30 @@ impl Meshes {
     }
 
     /// The same where the critical speed on today's mesh is known from elsewhere.
-    pub fn with(known: &Known, today: usize, at_today: Option<&CriticalReport>) -> Option<Self> {
-        let StudyChoice::Convergence { counts, .. } = &known.wish.study else { return None };
-        let verdict = |(n, answer): (&usize, &Option<PlaceAnswer>)| match answer {
-            Some(PlaceAnswer::Critical { verdict, .. }) => Some((*n, verdict.clone())),
+    pub fn with(known: &Known, today: usize, at_today: Option<&Critical>) -> Option<Self> {
+        let Study::Elements { counts, .. } = &known.wish.study else { return None };
+        let verdict = |(n, answer): (&usize, &Option<Answer>)| match answer {
+            Some(Answer::Critical { verdict, .. }) => Some((*n, verdict.clone())),
             _ => None,
         };
-        let mut points: Vec<(usize, VerdictAnswer)> = counts.iter().zip(&known.places).filter_map(verdict).collect();
+        let mut points: Vec<(usize, Verdict)> = counts.iter().zip(&known.places).filter_map(verdict).collect();
         if let Some(critical) = at_today.filter(|_| !counts.contains(&today)) {
-            points.push((today, VerdictAnswer::Critical(critical.clone())));
+            points.push((today, Verdict::Critical(critical.clone())));
             points.sort_by_key(|(n, _)| *n);
         }
-        let verdicts: Vec<(usize, Verdict)> = points.iter().map(|(n, answer)| (*n, plain(answer))).collect();
-        Some(Self { limit: convergence::richardson(&verdicts, today), points })
+        Some(Self { limit: convergence::richardson(&points, today), points })
     }
 
     /// Stretches of meshes that show one mode, as points (elements per cable, critical speed in m/s).
     pub fn stretches(&self) -> Vec<Vec<[f64; 2]>> {
         // Over 1/n the critical speed is nearly straight, or bent one way: no step is unlike the others by itself.
-        let at = |(n, verdict): &(usize, VerdictAnswer)| sample(-1.0 / *n as f64, Some(verdict));
+        let at = |(n, verdict): &(usize, Verdict)| sample(-1.0 / *n as f64, Some(verdict));
         let samples: Vec<Option<Sample>> = self.points.iter().map(at).collect();
         let point = |i: usize| {
             let (n, verdict) = &self.points[i];
-            critical(verdict).map(|critical| [*n as f64, critical.speed])
+            verdict.critical().map(|critical| [*n as f64, critical.speed])
         };
         segments(&samples).into_iter().map(|segment| segment.filter_map(point).collect()).collect()
-    }
-}
-
-fn plain(verdict: &VerdictAnswer) -> Verdict {
-    match verdict {
-        VerdictAnswer::Infeasible => Verdict::Infeasible,
-        VerdictAnswer::Unknown => Verdict::Unknown,
-        VerdictAnswer::NotConverged => Verdict::NotConverged,
-        VerdictAnswer::NoneUpTo(speed) => Verdict::NoneUpTo(*speed),
-        VerdictAnswer::Critical(critical) => Verdict::Critical(Critical {
-            speed: critical.speed,
-            eigenvalue: Complex::new(0.0, critical.frequency_hz * TAU),
-            kind: match critical.kind {
-                KindReport::Flutter => Kind::Flutter,
-                KindReport::Divergence => Kind::Divergence,
-            },
-            cable: critical.cable.saturating_sub(1),
-        }),
     }
 }
 
@@ -342,32 +310,44 @@ mod tests {
 
     use super::*;
     use crate::app::studies::Wish;
-    use crate::scenario::presets;
+    use crate::robot::Vec2;
+    use crate::scenario::{Scenario, presets};
+    use crate::stability::Kind;
+    use crate::study::Line;
 
-    fn critical(speed: f64, frequency_hz: f64) -> PlaceAnswer {
-        let critical = CriticalReport { speed, frequency_hz, kind: KindReport::Flutter, cable: 4 };
-        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Critical(critical), wave_limit: None }
+    fn critical(speed: f64, frequency_hz: f64) -> Answer {
+        let eigenvalue = Complex::new(0.0, frequency_hz * TAU);
+        let critical = Critical { speed, eigenvalue, kind: Kind::Flutter, cable: 3 };
+        Answer::Critical { direction: Vec2::x(), verdict: Verdict::Critical(critical), wave_limit: None }
     }
 
-    fn nothing() -> PlaceAnswer {
-        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Infeasible, wave_limit: None }
+    fn nothing() -> Answer {
+        Answer::Critical { direction: Vec2::x(), verdict: Verdict::Infeasible, wave_limit: None }
     }
 
-    fn known(study: StudyChoice, direction: [f64; 2], answer: impl Fn(usize) -> Option<PlaceAnswer>) -> Known {
-        let mut scenario = presets::PRESETS[0].scenario();
+    fn paper() -> Scenario {
+        presets::PRESETS[0].scenario()
+    }
+
+    fn line(direction: [f64; 2]) -> Study {
+        let mut scenario = paper();
         scenario.motion.direction = direction;
-        let wish = Wish::new(&scenario, study);
-        Known { places: (0..wish.places()).map(answer).collect(), wish, version: (1, 0) }
+        let (robot, motion) = scenario.to_robot().expect("physical");
+        Study::Line { line: Line::through(&robot, &motion, 21), limit: 40.0 }
+    }
+
+    fn known(study: Study, answer: impl Fn(usize) -> Option<Answer>) -> Known {
+        let wish = Wish::new(&paper(), study);
+        Known { places: (0..wish.study.len()).map(answer).collect(), wish, version: (1, 0) }
     }
 
     #[test]
     fn a_line_is_told_with_its_gaps_and_its_findings() {
-        let study = StudyChoice::Line { points: 21, max_speed: 40.0 };
         let answer = |i: usize| {
             let far = (i as f64 - 10.0).abs();
             Some(if far > 7.0 { nothing() } else { critical(11.0 - 0.1 * far * far, 0.3 + 0.1 * far) })
         };
-        let along = Along::new(&known(study.clone(), [1.0, 0.0], answer)).expect("a line");
+        let along = Along::new(&known(line([1.0, 0.0]), answer)).expect("a line");
         assert_eq!((along.abscissa, along.range, along.place([3.0, 0.0])), (Abscissa::X, [-10.0, 10.0], 3.0));
         assert_eq!(along.infeasible(), [[-10.0, -7.5], [7.5, 10.0]]);
         let stretches = along.stretches(|c| c.speed);
@@ -380,11 +360,11 @@ mod tests {
         assert!(text.contains("falls and the frequency rises, as the paper found"), "{text}");
 
         // The other way round the places run from right to left; flat lines say nothing.
-        let back = Along::new(&known(study.clone(), [-1.0, 0.0], |i| (i > 2).then(|| critical(9.0, 1.0))));
+        let back = Along::new(&known(line([-1.0, 0.0]), |i| (i > 2).then(|| critical(9.0, 1.0))));
         let back = back.expect("a line");
         assert_eq!((back.points.len(), back.points[17].0, back.findings()), (18, 7.0, None));
         // Across, the way begins where the line enters.
-        let across = Along::new(&known(study, [1.0, 1.0], |_| Some(nothing()))).expect("a line");
+        let across = Along::new(&known(line([1.0, 1.0]), |_| Some(nothing()))).expect("a line");
         assert_eq!(across.abscissa, Abscissa::Along);
         assert!((across.place([0.0, 0.0]) - 50.0_f64.sqrt()).abs() < 1e-9);
         assert_eq!(across.infeasible(), [across.range]);
@@ -392,8 +372,8 @@ mod tests {
 
     #[test]
     fn the_worst_direction_is_the_lowest() {
-        let study = StudyChoice::Polar { count: 8, max_speed: 40.0 };
-        let known = known(study, [1.0, 0.0], |i| match i {
+        let study = Study::Polar { position: Vec2::zeros(), count: 8, limit: 40.0 };
+        let known = known(study, |i| match i {
             0 => None,
             1 => Some(nothing()),
             _ => Some(critical(20.0 - i as f64, 1.0)),
@@ -406,15 +386,12 @@ mod tests {
 
     #[test]
     fn modes_are_cut_where_they_become_unstable() {
-        let study = StudyChoice::Campbell { to: 4.0, count: 5 };
+        let study = Study::Speeds { position: Vec2::zeros(), direction: Vec2::x(), to: 4.0, count: 5 };
         let answer = |i: usize| {
             let re = i as f64 - 1.5;
-            (i != 2).then(|| PlaceAnswer::Spectrum(Ok(vec![[re, 10.0], [-1.0, 1e4]])))
+            (i != 2).then(|| Answer::Spectrum(Ok(vec![Complex::new(re, 10.0), Complex::new(-1.0, 1e4)])))
         };
-        let spectra = spectra_up_to(&known(study, [1.0, 0.0], answer), 5.0);
-        let value = |&[re, im]: &[f64; 2]| Complex::new(re, im);
-        let spectra: Vec<_> = spectra.iter().map(|(at, values)| (*at, values.iter().map(value).collect())).collect();
-        let tracks = crate::study::campbell::track(&spectra);
+        let tracks = crate::study::campbell::track(&spectra_up_to(&known(study, answer), 5.0));
         assert_eq!(tracks.len(), 1, "what is far above the highest frequency is left out");
         let at = |speed: f64| (speed, Complex::new(speed - 1.5, 10.0));
         let [stable, unstable] = &pieces(&tracks[0])[..] else { panic!("two pieces") };
@@ -425,9 +402,10 @@ mod tests {
     #[test]
     fn meshes_lead_to_their_limit() {
         let counts = vec![4, 10, 20, 40, 80];
-        let study = StudyChoice::Convergence { counts: counts.clone(), max_speed: 40.0 };
+        let (position, direction) = (Vec2::zeros(), Vec2::x());
+        let study = Study::Elements { position, direction, counts: counts.clone(), limit: 40.0 };
         let answer = |i: usize| Some(critical(10.0 + 20.0 / (counts[i] * counts[i]) as f64, 1.0));
-        let meshes = Meshes::new(&known(study, [1.0, 0.0], answer), 10).expect("meshes");
+        let meshes = Meshes::new(&known(study, answer), 10).expect("meshes");
         assert_eq!(meshes.stretches().iter().map(Vec::len).collect::<Vec<_>>(), [5]);
         let Convergence::Limit(limit) = meshes.limit else { panic!("{meshes:?}") };
         assert!((limit.limit - 10.0).abs() < 1e-6 && (limit.error.unwrap_or(0.0) - 0.2).abs() < 1e-6, "{limit:?}");

@@ -1,11 +1,9 @@
 //! The modes of the Campbell diagram: its eigenvalues joined from speed to speed, which the pool does.
 
-use nalgebra::Complex;
-
 use super::{Known, Order};
 use crate::app::series::{self, Piece};
-use crate::compute::protocol::{ModePoints, PlaceAnswer, Revision, StudyChoice, StudyJob, StudyNews, Topic};
-use crate::study::campbell::Track;
+use crate::compute::protocol::{Revision, StudyJob, StudyNews, Topic};
+use crate::study::{Answer, Study};
 
 /// What modes are joined of: a study's answers so far, up to a highest frequency.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +46,7 @@ impl Joined {
         Some(Order::Want(StudyJob {
             revision: self.revision,
             scenario: known.wish.scenario.to_json(),
-            study: StudyChoice::Modes { spectra: series::spectra_up_to(known, highest) },
+            study: Study::Modes { spectra: series::spectra_up_to(known, highest) },
         }))
     }
 
@@ -56,10 +54,8 @@ impl Joined {
     pub fn take(&mut self, news: &StudyNews) {
         let ended = match news {
             StudyNews::Places { topic: Topic::Modes, revision, answers } if *revision == self.revision => {
-                if let [(0, PlaceAnswer::Modes(Ok(modes)))] = answers.as_slice() {
-                    let value = |&(speed, [re, im]): &(f64, [f64; 2])| (speed, Complex::new(re, im));
-                    let track = |points: &ModePoints| Track { points: points.iter().map(value).collect() };
-                    self.pieces = modes.iter().map(track).flat_map(|track| series::pieces(&track)).collect();
+                if let [(0, Answer::Modes(Ok(tracks)))] = answers.as_slice() {
+                    self.pieces = tracks.iter().flat_map(series::pieces).collect();
                 }
                 true
             }
@@ -87,13 +83,18 @@ impl Joined {
 mod tests {
     use super::*;
     use crate::app::studies::Wish;
+    use crate::robot::Vec2;
     use crate::scenario::presets;
+    use crate::study::campbell::Track;
+    use nalgebra::Complex;
 
     /// Two modes at four speeds, in the order in which the spectra have them.
     fn known(answered: usize) -> Known {
-        let wish = Wish::new(&presets::PRESETS[0].scenario(), StudyChoice::Campbell { to: 3.0, count: 4 });
-        let spectrum = |i: usize| vec![[-0.1, 1.0 + i as f64], [-0.2, 5.0 - i as f64], [-9.0, 900.0]];
-        let places = (0..4).map(|i| (i < answered).then(|| PlaceAnswer::Spectrum(Ok(spectrum(i))))).collect();
+        let study = Study::Speeds { position: Vec2::zeros(), direction: Vec2::x(), to: 3.0, count: 4 };
+        let wish = Wish::new(&presets::PRESETS[0].scenario(), study);
+        let values = |i: usize| [[-0.1, 1.0 + i as f64], [-0.2, 5.0 - i as f64], [-9.0, 900.0]];
+        let spectrum = |i: usize| values(i).map(|[re, im]| Complex::new(re, im)).to_vec();
+        let places = (0..4).map(|i| (i < answered).then(|| Answer::Spectrum(Ok(spectrum(i))))).collect();
         Known { wish, places, version: (7, answered) }
     }
 
@@ -102,12 +103,8 @@ mod tests {
         job
     }
 
-    fn answer(job: &StudyJob, modes: Vec<ModePoints>) -> StudyNews {
-        StudyNews::Places {
-            topic: Topic::Modes,
-            revision: job.revision,
-            answers: vec![(0, PlaceAnswer::Modes(Ok(modes)))],
-        }
+    fn answer(job: &StudyJob, modes: Vec<Track>) -> StudyNews {
+        StudyNews::Places { topic: Topic::Modes, revision: job.revision, answers: vec![(0, Answer::Modes(Ok(modes)))] }
     }
 
     /// A slider asks for another range in every frame: what is at work ends, then comes what is wanted by then.
@@ -116,14 +113,15 @@ mod tests {
         let mut joined = Joined::default();
         let known = known(4);
         let first = asked(joined.want(Some(&known), 5.0));
-        let StudyChoice::Modes { spectra } = &first.study else { panic!("{first:?}") };
+        let Study::Modes { spectra } = &first.study else { panic!("{first:?}") };
         assert_eq!((spectra.len(), spectra[0].1.len()), (4, 2), "900 rad/s are beyond the range");
         for highest in [5.0, 6.0, 7.0, 8.0] {
             assert_eq!(joined.want(Some(&known), highest), None, "one at a time");
         }
         assert!(joined.pieces().is_empty() && joined.is_working(), "nothing is joined here");
-        let track = |re: f64, from: f64, step: f64| -> Vec<(f64, [f64; 2])> {
-            (0..4).map(|i| (f64::from(i), [re, from + step * f64::from(i)])).collect()
+        let track = |re: f64, from: f64, step: f64| {
+            let point = |i| (f64::from(i), Complex::new(re, from + step * f64::from(i)));
+            Track { points: (0..4).map(point).collect() }
         };
         joined.take(&answer(&first, vec![track(-0.1, 1.0, 1.0), track(-0.2, 5.0, -1.0)]));
         assert_eq!((joined.pieces().len(), joined.is_working()), (2, false));

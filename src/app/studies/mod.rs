@@ -12,7 +12,8 @@ pub use wish::{Wish, wanted};
 
 use std::collections::VecDeque;
 
-use crate::compute::protocol::{PlaceAnswer, Revision, StudyJob, StudyNews, Topic};
+use crate::compute::protocol::{Revision, StudyJob, StudyNews, Topic};
+use crate::study::Answer;
 
 /// All topics of which there are studies. The joining of modes is kept apart, in [`Joined`].
 pub const TOPICS: [Topic; 5] = [Topic::Line, Topic::Map, Topic::Polar, Topic::Campbell, Topic::Convergence];
@@ -50,14 +51,14 @@ pub struct Known {
     /// The study.
     pub wish: Wish,
     /// The answers by place.
-    pub places: Vec<Option<PlaceAnswer>>,
+    pub places: Vec<Option<Answer>>,
     /// Changes with every answer, and is never the same for two studies.
     pub version: (Revision, usize),
 }
 
 impl Known {
     fn new(wish: Wish, revision: Revision) -> Self {
-        Self { places: vec![None; wish.places()], wish, version: (revision, 0) }
+        Self { places: vec![None; wish.study.len()], wish, version: (revision, 0) }
     }
 
     /// How many places are answered.
@@ -264,18 +265,18 @@ impl Studies {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compute::protocol::StudyChoice;
+    use crate::robot::Vec2;
     use crate::scenario::presets;
+    use crate::study::Study;
 
     fn wish(position: [f64; 2]) -> Wish {
-        let mut scenario = presets::PRESETS[0].scenario();
-        scenario.motion.position = position;
-        Wish::new(&scenario, StudyChoice::Polar { count: 8, max_speed: 40.0 })
+        let study = Study::Polar { position: Vec2::from(position), count: 8, limit: 40.0 };
+        Wish::new(&presets::PRESETS[0].scenario(), study)
     }
 
     fn places(revision: Revision, places: std::ops::Range<usize>) -> StudyNews {
         #[expect(clippy::cast_precision_loss)]
-        let answers = places.map(|i| (i, PlaceAnswer::Growth(Ok(i as f64)))).collect();
+        let answers = places.map(|i| (i, Answer::Growth(Ok(i as f64)))).collect();
         StudyNews::Places { topic: Topic::Polar, revision, answers }
     }
 

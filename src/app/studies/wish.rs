@@ -1,11 +1,12 @@
 //! What a study depends on, and which studies are wanted.
 
 use crate::app::state::{MapQuantity, Plot, UiState};
-use crate::compute::protocol::{AskedChoice, DirectionsChoice, StudyChoice, Topic};
-use crate::robot::{Robot, Vec2};
+use crate::compute::protocol::Topic;
+use crate::robot::Robot;
 use crate::scenario::Scenario;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
-use crate::study::{Grid, Line, workspace};
+use crate::scenario::v1::Motion;
+use crate::study::{Asked, Directions, Grid, Line, Study, workspace};
 
 /// About how many intervals a map has; spread so that they are as wide as they are high.
 const MAP_INTERVALS: f64 = 800.0;
@@ -24,6 +25,8 @@ const MESHES: [usize; 10] = [4, 6, 8, 10, 14, 20, 28, 40, 56, 80];
 const FINE: [usize; 2] = [40, 80];
 /// Stands where the number of elements does not matter.
 const ANY_ELEMENTS: usize = 10;
+/// Stands for the motion, which does not matter: a study has its own poses, directions and speeds.
+const ANY_MOTION: Motion = Motion { position: [0.0, 0.0], direction: [1.0, 0.0], speed: 0.0 };
 
 /// A study and all that its answers depend on, and nothing else: two wishes that are equal have the same answers.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,88 +34,38 @@ pub struct Wish {
     /// The scenario; what the study does not look at has a fixed value.
     pub scenario: Scenario,
     /// The study.
-    pub study: StudyChoice,
+    pub study: Study,
 }
 
 impl Wish {
-    /// `study` of `scenario`.
-    pub fn new(scenario: &Scenario, study: StudyChoice) -> Self {
-        let mut scenario = scenario.clone();
-        scenario.name = None;
-        let motion = &mut scenario.motion;
-        let speed = motion.speed;
-        motion.speed = 0.0;
-        match &study {
-            StudyChoice::Map { directions, asked, .. } => {
-                motion.position = [0.0, 0.0];
-                if *directions == DirectionsChoice::Worst {
-                    motion.direction = [1.0, 0.0];
-                }
-                if *asked == AskedChoice::Growth {
-                    motion.speed = speed;
-                }
-            }
-            StudyChoice::Polar { .. } => motion.direction = [1.0, 0.0],
-            StudyChoice::Line { .. } => start_of_line(&mut scenario),
-            StudyChoice::Campbell { .. } | StudyChoice::Modes { .. } => {}
-            StudyChoice::Convergence { .. } => scenario.elements_per_cable = ANY_ELEMENTS,
+    /// `study` of the robot of `scenario`.
+    pub fn new(scenario: &Scenario, study: Study) -> Self {
+        let mut scenario = Scenario { name: None, motion: ANY_MOTION, ..scenario.clone() };
+        if matches!(study, Study::Elements { .. }) {
+            scenario.elements_per_cable = ANY_ELEMENTS;
         }
         Self { scenario, study }
     }
 
-    /// What it is about.
-    pub fn topic(&self) -> Topic {
-        self.study.topic()
+    /// The critical speed of `scenario` on meshes of so many elements per cable; `None` where it is not physical.
+    pub fn meshes(scenario: &Scenario, counts: Vec<usize>) -> Option<Self> {
+        let (_, motion) = scenario.to_robot().ok()?;
+        let (position, direction) = (motion.position(), motion.direction());
+        Some(Self::new(scenario, Study::Elements { position, direction, counts, limit: DEFAULT_MAX_SPEED }))
     }
 
-    /// How many places it has.
-    pub fn places(&self) -> usize {
-        match &self.study {
-            StudyChoice::Line { points, .. } => *points,
-            StudyChoice::Map { nx, ny, .. } => nx * ny,
-            StudyChoice::Polar { count, .. } | StudyChoice::Campbell { count, .. } => *count,
-            StudyChoice::Convergence { counts, .. } => counts.len(),
-            StudyChoice::Modes { .. } => 1,
-        }
+    /// What it is about.
+    pub fn topic(&self) -> Topic {
+        Topic::of(&self.study)
     }
 
     /// How many answers give a first picture of it: of a map every fourth point of every fourth row.
     pub fn first_picture(&self) -> usize {
-        match self.study {
-            StudyChoice::Map { nx, ny, .. } => nx.div_ceil(4) * ny.div_ceil(4),
-            _ => self.places().div_ceil(4),
+        match &self.study {
+            Study::Map { grid, .. } => grid.nx.div_ceil(4) * grid.ny.div_ceil(4),
+            study => study.len().div_ceil(4),
         }
     }
-
-    /// Where a map's points are.
-    pub fn grid(&self) -> Option<Grid> {
-        let StudyChoice::Map { nx, ny, .. } = self.study else { return None };
-        let (robot, _) = self.scenario.to_robot().ok()?;
-        Some(Grid::of(&robot, nx, ny))
-    }
-
-    /// Where a line's points are.
-    pub fn line(&self) -> Option<Line> {
-        let StudyChoice::Line { points, .. } = self.study else { return None };
-        let (robot, motion) = self.scenario.to_robot().ok()?;
-        Some(Line::through(&robot, &motion, points))
-    }
-}
-
-/// Puts the platform where its line enters the workspace, so that all poses of one line are one. Outside of the
-/// workspace the line is stretched to the platform, and depends on where it is.
-fn start_of_line(scenario: &mut Scenario) {
-    let Ok((robot, motion)) = scenario.to_robot() else { return };
-    let line = Line::through(&robot, &motion, 2);
-    scenario.motion.direction = line.direction.into();
-    if is_inside(&robot, motion.position()) {
-        scenario.motion.position = line.from.into();
-    }
-}
-
-fn is_inside(robot: &Robot, position: Vec2) -> bool {
-    let [low, high] = workspace(robot);
-    (0..2).all(|i| (low[i]..=high[i]).contains(&position[i]))
 }
 
 /// The studies of what is open: the map where it is switched on, and that of the plot on show; where nothing is under way
@@ -125,42 +78,43 @@ pub fn wanted(
     critical: Option<f64>,
     at_rest: bool,
 ) -> Vec<Wish> {
-    let max_speed = DEFAULT_MAX_SPEED;
+    let Ok((robot, motion)) = scenario.to_robot() else { return Vec::new() };
+    let (position, direction) = (motion.position(), motion.direction());
+    let limit = DEFAULT_MAX_SPEED;
     let mut wishes = Vec::new();
-    if state.map.on
-        && let Ok((robot, _)) = scenario.to_robot()
-    {
+    if state.map.on {
         let [nx, ny] = map_points(&robot);
-        let directions = if state.map.worst { DirectionsChoice::Worst } else { DirectionsChoice::Motion };
+        let directions =
+            if state.map.worst { Directions::Worst(Directions::WORST_OF) } else { Directions::One(direction) };
         let asked = match state.map.quantity {
-            MapQuantity::Growth => AskedChoice::Growth,
-            _ => AskedChoice::Critical { max_speed },
+            MapQuantity::Growth => Asked::Growth { speed: motion.speed() },
+            _ => Asked::Critical { limit },
         };
-        wishes.push(Wish::new(scenario, StudyChoice::Map { nx, ny, directions, asked }));
+        wishes.push(Wish::new(scenario, Study::Map { grid: Grid::of(&robot, nx, ny), directions, asked }));
     }
-    let study = match plot {
-        Some(Plot::Line) => StudyChoice::Line { points: LINE_POINTS, max_speed },
-        Some(Plot::Directions) => StudyChoice::Polar { count: DIRECTIONS, max_speed },
-        Some(Plot::Campbell) => {
-            StudyChoice::Campbell { to: highest_speed(scenario.motion.speed, critical), count: SPEEDS }
-        }
-        Some(Plot::Mesh) => StudyChoice::Convergence { counts: meshes(scenario.elements_per_cable), max_speed },
-        Some(Plot::Eigenvalues | Plot::Growth | Plot::Modes | Plot::Knobs) | None => {
-            return [wishes, Vec::from_iter(certainty(scenario, at_rest && critical.is_some()))].concat();
-        }
+    let meshes = match plot {
+        Some(Plot::Mesh) => Some(meshes(scenario.elements_per_cable)),
+        _ => (at_rest && critical.is_some()).then(|| fine(scenario.elements_per_cable)),
     };
-    let meshes = at_rest && critical.is_some() && !matches!(study, StudyChoice::Convergence { .. });
-    wishes.push(Wish::new(scenario, study));
-    wishes.extend(certainty(scenario, meshes));
+    let study = match plot {
+        Some(Plot::Line) => Some(Study::Line { line: Line::through(&robot, &motion, LINE_POINTS), limit }),
+        Some(Plot::Directions) => Some(Study::Polar { position, count: DIRECTIONS, limit }),
+        Some(Plot::Campbell) => {
+            let to = highest_speed(motion.speed(), critical);
+            Some(Study::Speeds { position, direction, to, count: SPEEDS })
+        }
+        Some(Plot::Mesh | Plot::Eigenvalues | Plot::Growth | Plot::Modes | Plot::Knobs) | None => None,
+    };
+    wishes.extend(study.map(|study| Wish::new(scenario, study)));
+    wishes.extend(meshes.and_then(|counts| Wish::meshes(scenario, counts)));
     wishes
 }
 
-/// The study that tells which digits of the critical speed are certain: three meshes, each with twice the elements of the
-/// one before, the finest with four times today's where that is not much work.
-fn certainty(scenario: &Scenario, wanted: bool) -> Option<Wish> {
-    let quarter = (4 * scenario.elements_per_cable).clamp(FINE[0], FINE[1]) / 4;
-    let counts = vec![quarter, 2 * quarter, 4 * quarter];
-    wanted.then(|| Wish::new(scenario, StudyChoice::Convergence { counts, max_speed: DEFAULT_MAX_SPEED }))
+/// The meshes that tell which digits of the critical speed are certain: three, each with twice the elements of the one
+/// before, the finest with four times today's where that is not much work.
+fn fine(today: usize) -> Vec<usize> {
+    let quarter = (4 * today).clamp(FINE[0], FINE[1]) / 4;
+    vec![quarter, 2 * quarter, 4 * quarter]
 }
 
 /// Points of a map in a row and in a column.
@@ -228,7 +182,7 @@ mod tests {
             wanted(&paper, &state(false, Plot::Modes), Some(plot), critical, at_rest)
         };
         let meshes = |wishes: Vec<Wish>| match &wishes[..] {
-            [Wish { study: StudyChoice::Convergence { counts, .. }, .. }] => counts.clone(),
+            [Wish { study: Study::Elements { counts, .. }, .. }] => counts.clone(),
             other => panic!("{other:?}"),
         };
         assert_eq!(meshes(at_rest(Plot::Modes, Some(11.3), true)), [10, 20, 40]);
@@ -237,10 +191,7 @@ mod tests {
         assert!(at_rest(Plot::Modes, None, true).is_empty(), "there is nothing to be certain of");
         assert_eq!(at_rest(Plot::Line, Some(11.3), true).len(), 2);
         for (n, finest) in [(2, 40), (10, 40), (15, 60), (20, 80), (200, 80)] {
-            let scenario = Scenario { elements_per_cable: n, ..paper.clone() };
-            let wish = certainty(&scenario, true);
-            let Some(StudyChoice::Convergence { counts, .. }) = wish.map(|wish| wish.study) else { panic!("none") };
-            assert_eq!((counts[2], counts[1], counts[0]), (finest, finest / 2, finest / 4), "{n}");
+            assert_eq!(fine(n), [finest / 4, finest / 2, finest]);
         }
         // On a phone the plots may be hidden.
         assert_eq!(topics(&state(true, Plot::Mesh), None), [Topic::Map]);

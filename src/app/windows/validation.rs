@@ -63,16 +63,8 @@ impl Run {
     }
 }
 
-fn outcome(answer: &CheckAnswer) -> Result<Outcome, &str> {
-    answer
-        .outcome
-        .as_ref()
-        .map(|&[expected, got, tolerance]| Outcome { expected, got, tolerance })
-        .map_err(String::as_str)
-}
-
 fn passes(answer: &CheckAnswer) -> bool {
-    outcome(answer).is_ok_and(|outcome| outcome.passes())
+    answer.outcome.as_ref().is_ok_and(Outcome::passes)
 }
 
 /// Draws the checks, and asks for the next one.
@@ -116,7 +108,7 @@ fn wide(ui: &mut Ui, run: &Run) {
                 ui.set_width(230.0);
                 name(ui, answer);
             });
-            if let Ok(outcome) = outcome(answer) {
+            if let Ok(outcome) = answer.outcome {
                 let [expected, got] = values(&answer.unit, outcome);
                 ui.label(expected);
                 ui.label(got);
@@ -133,7 +125,7 @@ fn wide(ui: &mut Ui, run: &Run) {
 fn narrow(ui: &mut Ui, run: &Run) {
     for answer in &run.answers {
         name(ui, answer);
-        if let Ok(outcome) = outcome(answer) {
+        if let Ok(outcome) = answer.outcome {
             let [expected, got] = values(&answer.unit, outcome);
             Grid::new(&answer.name).num_columns(2).spacing([12.0, 2.0]).show(ui, |ui| {
                 for (title, value) in [("Expected", expected), ("Got", got), ("Error (allowed)", difference(outcome))] {
@@ -170,7 +162,7 @@ fn difference(outcome: Outcome) -> String {
 
 fn verdict(ui: &mut Ui, answer: &CheckAnswer) {
     let (calm, warning) = (theme::calm(ui.visuals()), theme::warning(ui.visuals()));
-    match outcome(answer) {
+    match &answer.outcome {
         Ok(outcome) if outcome.passes() => ui.colored_label(calm, "passes"),
         Ok(_) => ui.colored_label(warning, "▲ fails"),
         Err(reason) => ui.colored_label(warning, format!("▲ fails: {reason}")),
@@ -181,15 +173,15 @@ fn verdict(ui: &mut Ui, answer: &CheckAnswer) {
 mod tests {
     use super::*;
 
-    const GOOD: [f64; 3] = [1.0, 1.0004, 1e-3];
+    const GOOD: Outcome = Outcome { expected: 1.0, got: 1.0004, tolerance: 1e-3 };
     const COUNT: usize = 4;
 
-    fn answer(index: usize, outcome: Result<[f64; 3], String>) -> CheckAnswer {
+    fn answer(index: usize, outcome: Result<Outcome, String>) -> CheckAnswer {
         let (name, source, unit) = ("a length".into(), "closed form".into(), "m".into());
         CheckAnswer { index, count: COUNT, name, source, unit, outcome }
     }
 
-    fn take_all(outcomes: [Result<[f64; 3], String>; COUNT]) -> Run {
+    fn take_all(outcomes: [Result<Outcome, String>; COUNT]) -> Run {
         let mut run = Run::default();
         for (index, outcome) in outcomes.into_iter().enumerate() {
             let mut commands = Vec::new();
@@ -209,7 +201,8 @@ mod tests {
     fn the_summary_counts_what_passes_and_waits_for_all() {
         let good = || Ok(GOOD);
         assert_eq!(take_all([good(), good(), good(), good()]).summary(), "4 of 4 checks pass.");
-        let run = take_all([Ok([1.0, 2.0, 1e-3]), Err("There is no mode.".into()), Ok([1.0, f64::NAN, 1e-3]), good()]);
+        let wrong = |got: f64| Ok(Outcome { got, ..GOOD });
+        let run = take_all([wrong(2.0), Err("There is no mode.".into()), wrong(f64::NAN), good()]);
         assert_eq!(run.summary(), "1 of 4 checks pass.");
     }
 
@@ -222,11 +215,10 @@ mod tests {
 
     #[test]
     fn values_have_the_digits_that_count() {
-        let good = Outcome { expected: 1.0, got: 1.0004, tolerance: 1e-3 };
-        assert_eq!(values("m/s", good), ["1.0000 m/s", "1.0004 m/s"]);
-        assert_eq!(values("", Outcome { tolerance: 0.5, ..good }), ["1.00", "1.00"]);
+        assert_eq!(values("m/s", GOOD), ["1.0000 m/s", "1.0004 m/s"]);
+        assert_eq!(values("", Outcome { tolerance: 0.5, ..GOOD }), ["1.00", "1.00"]);
         for tolerance in [f64::NAN, 0.0, 1e-300, f64::INFINITY] {
-            assert!(values("", Outcome { tolerance, ..good })[0].len() < 20);
+            assert!(values("", Outcome { tolerance, ..GOOD })[0].len() < 20);
         }
     }
 }

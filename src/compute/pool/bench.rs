@@ -7,8 +7,9 @@ use std::time::Duration;
 use web_time::Instant;
 
 use crate::compute::places::Places;
-use crate::compute::protocol::{Batch, BatchAnswer, PlaceAnswer, Task, Topic};
+use crate::compute::protocol::{Batch, BatchAnswer, Task, Topic};
 use crate::stability::Steps;
+use crate::study::Answer;
 
 /// A slice of work ends after this time, so that the worker sees soon what else it is told.
 const SLICE: Duration = Duration::from_millis(8);
@@ -16,12 +17,12 @@ const SLICE: Duration = Duration::from_millis(8);
 const LONGEST: Duration = Duration::from_millis(20);
 
 /// How a place is answered.
-type Answer = dyn Fn(&Arc<Places>, usize) -> Steps<PlaceAnswer> + Send + Sync;
+type AnswerAt = dyn Fn(&Arc<Places>, usize) -> Steps<Answer> + Send + Sync;
 
 /// Serves tasks, one after the other and in slices: feed it with [`Bench::submit`], then call [`Bench::work`] until it
 /// returns `None`.
 pub struct Bench {
-    answer: Arc<Answer>,
+    answer: Arc<AnswerAt>,
     /// By topic the newest study with its generation; each is read from its scenario once.
     studies: BTreeMap<Topic, (u64, Arc<Places>)>,
     batches: VecDeque<AtWork>,
@@ -30,8 +31,8 @@ pub struct Bench {
 /// A batch with its answers so far.
 struct AtWork {
     batch: Batch,
-    place: Option<Steps<PlaceAnswer>>,
-    answers: Vec<(usize, PlaceAnswer)>,
+    place: Option<Steps<Answer>>,
+    answers: Vec<(usize, Answer)>,
     spent: Duration,
 }
 
@@ -43,7 +44,7 @@ impl Default for Bench {
 
 impl Bench {
     /// One that answers each place by `answer`.
-    pub(super) fn by(answer: Arc<Answer>) -> Self {
+    pub(super) fn by(answer: Arc<AnswerAt>) -> Self {
         Self { answer, studies: BTreeMap::new(), batches: VecDeque::new() }
     }
 
@@ -51,10 +52,10 @@ impl Bench {
     pub fn submit(&mut self, task: Task) {
         match task {
             Task::Study { generation, job } => {
-                self.studies.remove(&job.study.topic());
+                self.studies.remove(&Topic::of(&job.study));
                 // The pool has read it before; what cannot be read leaves its batches without answers.
                 if let Ok(places) = Places::new(&job) {
-                    self.studies.insert(job.study.topic(), (generation, Arc::new(places)));
+                    self.studies.insert(Topic::of(&job.study), (generation, Arc::new(places)));
                 }
             }
             Task::Forget(topic) => {
@@ -86,7 +87,7 @@ impl Bench {
 
 impl AtWork {
     /// Goes on for the slice that has `begun`; whether the batch ends with it.
-    fn go_on(&mut self, places: &Arc<Places>, answer: &Answer, begun: Instant) -> bool {
+    fn go_on(&mut self, places: &Arc<Places>, answer: &AnswerAt, begun: Instant) -> bool {
         while let Some(&place) = self.batch.places.get(self.answers.len()) {
             let steps = self.place.get_or_insert_with(|| answer(places, place));
             loop {
@@ -113,9 +114,10 @@ impl AtWork {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compute::protocol::{StudyChoice, StudyJob};
+    use crate::compute::protocol::StudyJob;
     use crate::scenario::presets;
     use crate::stability::steps::step;
+    use crate::study::{Line, Study};
 
     /// A place that never ends, in steps of a millisecond.
     fn endless() -> Bench {
@@ -129,8 +131,10 @@ mod tests {
     }
 
     fn told(generation: u64, points: usize) -> [Task; 2] {
-        let study = StudyChoice::Line { points, max_speed: 40.0 };
-        let job = StudyJob { revision: 1, scenario: presets::PRESETS[0].scenario().to_json(), study };
+        let scenario = presets::PRESETS[0].scenario();
+        let (robot, motion) = scenario.to_robot().expect("physical");
+        let study = Study::Line { line: Line::through(&robot, &motion, points), limit: 40.0 };
+        let job = StudyJob { revision: 1, scenario: scenario.to_json(), study };
         let places = (0..points).collect();
         [Task::Study { generation, job }, Task::Batch(Batch { topic: Topic::Line, generation, places })]
     }

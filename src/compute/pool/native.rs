@@ -12,11 +12,12 @@ use super::bench::Bench;
 use super::core::{Core, Event};
 use super::scheduler::{Scheduler, WorkerId};
 use crate::compute::places::Places;
-use crate::compute::protocol::{PlaceAnswer, Task};
+use crate::compute::protocol::Task;
 use crate::stability::Steps;
+use crate::study::Answer;
 
 /// How a place is answered.
-type Answer = dyn Fn(&Arc<Places>, usize) -> Steps<PlaceAnswer> + Send + Sync;
+type AnswerAt = dyn Fn(&Arc<Places>, usize) -> Steps<Answer> + Send + Sync;
 
 /// What the interface and the threads share. A thread that has an answer gets its next places at once.
 pub struct Shared {
@@ -34,7 +35,7 @@ impl Shared {
     pub(super) fn by(
         size: usize,
         wake: impl Fn() + Send + Sync + 'static,
-        answer: impl Fn(&Arc<Places>, usize) -> Steps<PlaceAnswer> + Send + Sync + 'static,
+        answer: impl Fn(&Arc<Places>, usize) -> Steps<Answer> + Send + Sync + 'static,
     ) -> Self {
         let (wake, answer) = (Arc::new(wake), Arc::new(answer));
         let core = Arc::new_cyclic(|core| {
@@ -80,7 +81,7 @@ pub struct Crew {
     /// A thread ends when its inbox is dropped.
     inboxes: BTreeMap<WorkerId, Sender<Task>>,
     report: Report,
-    answer: Arc<Answer>,
+    answer: Arc<AnswerAt>,
 }
 
 impl Crew {
@@ -120,7 +121,7 @@ impl Crew {
 }
 
 /// Runs until the other side is dropped.
-fn serve(worker: WorkerId, tasks: &Receiver<Task>, report: &Report, answer: Arc<Answer>) {
+fn serve(worker: WorkerId, tasks: &Receiver<Task>, report: &Report, answer: Arc<AnswerAt>) {
     let mut bench = Bench::by(answer);
     while let Ok(task) = tasks.recv() {
         bench.submit(task);

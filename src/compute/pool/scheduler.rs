@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
 use super::study::{AtWork, Handed};
-use crate::compute::protocol::{Batch, BatchAnswer, PlaceAnswer, StudyJob, StudyNews, Task, Topic};
+use crate::compute::protocol::{Batch, BatchAnswer, StudyJob, StudyNews, Task, Topic};
+use crate::study::Answer;
 
 /// Names a worker; none comes twice.
 pub type WorkerId = u64;
@@ -101,7 +102,7 @@ impl Scheduler {
 
     /// Begins a study in the place of its topic's.
     pub fn want(&mut self, job: StudyJob) {
-        let (topic, revision) = (job.study.topic(), job.revision);
+        let (topic, revision) = (Topic::of(&job.study), job.revision);
         self.cancel(topic);
         self.failures = 0;
         self.generation += 1;
@@ -237,7 +238,7 @@ impl Scheduler {
     }
 
     /// News of a study's answers, and of its end if they were the last.
-    fn tell(&mut self, topic: Topic, answers: Vec<(usize, PlaceAnswer)>) {
+    fn tell(&mut self, topic: Topic, answers: Vec<(usize, Answer)>) {
         if let Some(study) = self.studies.get(&topic) {
             self.news.push(StudyNews::Places { topic, revision: study.job.revision, answers });
             self.finish(topic);

@@ -4,7 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
 use crate::compute::places::Places;
-use crate::compute::protocol::{PlaceAnswer, StudyJob, Topic};
+use crate::compute::protocol::{StudyJob, Topic};
+use crate::study::Answer;
 
 /// A batch is about so much work, in s: holding and cancelling act after one or two of them.
 const BATCH: f64 = 0.010;
@@ -92,7 +93,7 @@ impl AtWork {
     /// What comes first; `None` where nothing waits. A map's first picture, then what is small, then the map's details.
     pub fn level(&self, workers: usize) -> Option<u8> {
         let coarse = *self.waiting.first()? < self.places.coarse();
-        Some(match self.job.study.topic() {
+        Some(match Topic::of(&self.job.study) {
             Topic::Map if coarse && self.spent < COARSE_TIME * workers as f64 => 0,
             Topic::Map if !coarse => 2,
             _ => 1,
@@ -120,7 +121,7 @@ impl AtWork {
         let patience =
             if self.slowest > 0.0 { (SLOWEST * self.slowest * heaviest).clamp(PATIENCE, by_nature) } else { by_nature };
         Handed {
-            topic: self.job.study.topic(),
+            topic: Topic::of(&self.job.study),
             generation: self.generation,
             ranks,
             estimate,
@@ -135,7 +136,7 @@ impl AtWork {
 
     /// Takes in the answers to a batch, which took so many seconds; gives what a place of weight 1 took, in s. What is
     /// not answered waits again. `None` where these are no answers to the batch; then nothing has changed.
-    pub fn answer(&mut self, batch: &Handed, answers: &[(usize, PlaceAnswer)], seconds: f64) -> Option<f64> {
+    pub fn answer(&mut self, batch: &Handed, answers: &[(usize, Answer)], seconds: f64) -> Option<f64> {
         let (done, left) = batch.ranks.split_at_checked(answers.len())?;
         let fits = answers.iter().zip(done).all(|((place, _), &rank)| self.order[rank] == *place);
         if answers.is_empty() || !fits {
@@ -152,7 +153,7 @@ impl AtWork {
 
     /// Takes back a batch whose worker is lost, whether the worker had `begun` it or not. Gives answers in the place of
     /// those that have lost too many workers.
-    pub fn give_back(&mut self, batch: Handed, begun: bool) -> Vec<(usize, PlaceAnswer)> {
+    pub fn give_back(&mut self, batch: Handed, begun: bool) -> Vec<(usize, Answer)> {
         let mut given_up = Vec::new();
         for rank in batch.ranks {
             let losses = self.losses.entry(rank).or_default();

@@ -9,26 +9,32 @@ use std::time::{Duration, Instant};
 use super::platform::Shared;
 use super::scheduler::{Action, Scheduler, WorkerId};
 use crate::compute::places::Places;
-use crate::compute::protocol::{
-    AskedChoice, Batch, BatchAnswer, DirectionsChoice, PlaceAnswer, Revision, StudyChoice, StudyJob, StudyNews, Task,
-    Topic, VerdictAnswer,
-};
+use crate::compute::protocol::{Batch, BatchAnswer, Revision, StudyJob, StudyNews, Task, Topic};
+use crate::robot::{Motion, Robot, Vec2};
 use crate::scenario::presets;
+use crate::study::{Answer, Asked, Directions, Grid, Line, Study, Verdict};
 
-fn job(revision: Revision, study: StudyChoice) -> StudyJob {
+fn robot() -> (Robot, Motion) {
+    presets::PRESETS[0].scenario().to_robot().expect("physical")
+}
+
+fn job(revision: Revision, study: Study) -> StudyJob {
     StudyJob { revision, scenario: presets::PRESETS[0].scenario().to_json(), study }
 }
 
-fn line(points: usize) -> StudyChoice {
-    StudyChoice::Line { points, max_speed: 40.0 }
+fn line(points: usize) -> Study {
+    let (robot, motion) = robot();
+    Study::Line { line: Line::through(&robot, &motion, points), limit: 40.0 }
 }
 
-fn growth_map(nx: usize, ny: usize) -> StudyChoice {
-    StudyChoice::Map { nx, ny, directions: DirectionsChoice::Motion, asked: AskedChoice::Growth }
+fn growth_map(nx: usize, ny: usize) -> Study {
+    let (robot, motion) = robot();
+    let asked = Asked::Growth { speed: motion.speed() };
+    Study::Map { grid: Grid::of(&robot, nx, ny), directions: Directions::One(motion.direction()), asked }
 }
 
-const ANSWER: PlaceAnswer = PlaceAnswer::Growth(Ok(-1.0));
-const UNKNOWN: VerdictAnswer = VerdictAnswer::Unknown;
+const ANSWER: Answer = Answer::Growth(Ok(-1.0));
+const UNKNOWN: Verdict = Verdict::Unknown;
 
 /// A scheduler with its clock and what its workers have been told.
 struct Stage {
@@ -118,7 +124,7 @@ impl Stage {
 }
 
 /// The places answered, in their order, and whether the study has ended.
-fn answered(news: Vec<StudyNews>) -> (Vec<(usize, PlaceAnswer)>, bool) {
+fn answered(news: Vec<StudyNews>) -> (Vec<(usize, Answer)>, bool) {
     let mut all = Vec::new();
     let mut finished = false;
     for news in news {
@@ -132,7 +138,7 @@ fn answered(news: Vec<StudyNews>) -> (Vec<(usize, PlaceAnswer)>, bool) {
 }
 
 /// That every place was answered once.
-fn check_complete(news: Vec<StudyNews>, count: usize) -> Vec<(usize, PlaceAnswer)> {
+fn check_complete(news: Vec<StudyNews>, count: usize) -> Vec<(usize, Answer)> {
     let (mut all, finished) = answered(news);
     assert!(finished);
     all.sort_by_key(|(place, _)| *place);
@@ -200,7 +206,8 @@ fn batches_are_as_long_as_their_time_and_what_is_left_over_comes_first() {
 #[test]
 fn a_maps_first_picture_comes_first_then_small_studies_then_its_details() {
     let mut stage = Stage::new(1);
-    let small = [line(30), StudyChoice::Campbell { to: 10.0, count: 30 }];
+    let (position, direction) = (Vec2::zeros(), Vec2::x());
+    let small = [line(30), Study::Speeds { position, direction, to: 10.0, count: 30 }];
     stage.scheduler.want(job(1, growth_map(41, 21)));
     for study in small {
         stage.scheduler.want(job(1, study));
@@ -289,7 +296,8 @@ fn a_silent_worker_is_lost_after_some_seconds_and_a_slow_place_gets_more() {
 #[test]
 fn heavy_places_get_more_time_and_time_asleep_does_not_count() {
     let mut stage = Stage::new(1);
-    stage.scheduler.want(job(1, StudyChoice::Convergence { counts: vec![40], max_speed: 40.0 }));
+    let (position, direction) = (Vec2::zeros(), Vec2::x());
+    stage.scheduler.want(job(1, Study::Elements { position, direction, counts: vec![40], limit: 40.0 }));
     stage.go_on();
     for _ in 0..10 {
         stage.pass(4.0);
@@ -322,13 +330,10 @@ fn a_place_that_kills_three_workers_is_given_up_alone() {
     }
     assert_eq!(dead, 3);
     let all = check_complete(stage.scheduler.take_news(), 10);
-    let direction = [1.0, 0.0];
+    let direction = Vec2::x();
     for (place, answer) in all {
-        let expected = if place == deadly {
-            PlaceAnswer::Critical { direction, verdict: UNKNOWN, wave_limit: None }
-        } else {
-            ANSWER
-        };
+        let expected =
+            if place == deadly { Answer::Critical { direction, verdict: UNKNOWN, wave_limit: None } } else { ANSWER };
         assert_eq!(answer, expected, "at {place}");
     }
 }
@@ -400,7 +405,7 @@ fn wait(shared: &Shared) -> Vec<StudyNews> {
 }
 
 /// A place's answer, all at once.
-fn finish(places: &Arc<Places>, place: usize) -> PlaceAnswer {
+fn finish(places: &Arc<Places>, place: usize) -> Answer {
     let mut steps = places.answer(place);
     loop {
         if let Some(answer) = steps.advance() {

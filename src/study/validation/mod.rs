@@ -27,6 +27,7 @@ pub struct Check {
 
 /// What a check has come to, all in the check's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct Outcome {
     /// From the check's source.
     pub expected: f64,

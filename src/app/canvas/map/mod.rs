@@ -18,11 +18,10 @@ use crate::app::meaning::Explain as _;
 use crate::app::state::{Camera, MapQuantity, MapView, Settings, UiState};
 use crate::app::studies::{Known, Shown, Stage, Studies};
 use crate::app::{Facts, digits, series};
-use crate::compute::protocol::{
-    AskedChoice, DirectionsChoice, Missing, PlaceAnswer, Revision, StudyChoice, Topic, VerdictAnswer,
-};
+use crate::compute::protocol::{Revision, Topic};
 use crate::robot::Vec2 as WorldVec2;
-use crate::scenario::report::KindReport;
+use crate::stability::Kind;
+use crate::study::{Answer, Asked, Directions, NoAnswer, Study, Verdict};
 use paint::Texture;
 
 /// While answers come in, the picture is made anew this often, in seconds.
@@ -103,7 +102,7 @@ impl Layer {
 }
 
 fn asks_growth(known: &Known) -> bool {
-    matches!(known.wish.study, StudyChoice::Map { asked: AskedChoice::Growth, .. })
+    matches!(known.wish.study, Study::Map { asked: Asked::Growth { .. }, .. })
 }
 
 /// Switch, quantity, direction and progress, in the canvas's upper right corner.
@@ -204,10 +203,10 @@ pub fn point(
 ) {
     let Facts { document, studies, settings, .. } = facts;
     let Some(Shown { known, current }) = studies.shown(Topic::Map) else { return };
-    let Some(grid) = known.wish.grid() else { return };
+    let Study::Map { grid, .. } = &known.wish.study else { return };
     let pointer = background.hover_pos().filter(|_| background.hovered() && !background.dragged());
     if let Some(pointer) = pointer
-        && let Some(nearest) = picture::nearest(&grid, view.pos_in_world(pointer).into())
+        && let Some(nearest) = picture::nearest(grid, view.pos_in_world(pointer).into())
     {
         let at = grid.position(nearest);
         painter.circle_stroke(view.pos_in_ui(at.into()), 4.0, (1.5, ui.visuals().strong_text_color()));
@@ -223,7 +222,7 @@ pub fn point(
     let clicked = background.interact_pointer_pos().filter(|_| background.clicked());
     if let Some(clicked) = clicked {
         let to = view.pos_in_world(clicked);
-        if picture::nearest(&grid, to.into()).is_some() {
+        if picture::nearest(grid, to.into()).is_some() {
             let mut scenario = document.scenario.clone();
             scenario.motion.position = to.map(|coordinate| roundest(coordinate, 1.0 / view.scale));
             commands.push(Command::Edit(Box::new(scenario)));
@@ -236,35 +235,33 @@ fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings, share
     let place = format!("At ({:.2}, {:.2}) m", at.x, at.y);
     let said = match known.places.get(index).and_then(Option::as_ref) {
         None => "not computed yet".into(),
-        Some(PlaceAnswer::Growth(Ok(rate))) => {
+        Some(Answer::Growth(Ok(rate))) => {
             let word = if *rate > 0.0 { "grows" } else { "dies out" };
             format!("{word}, growth rate {} 1/s", digits::certain(*rate, None))
         }
-        Some(PlaceAnswer::Growth(Err(Missing::Infeasible))) => NO_EQUILIBRIUM.into(),
-        Some(PlaceAnswer::Growth(Err(Missing::Failed)) | PlaceAnswer::Spectrum(_) | PlaceAnswer::Modes(_)) => {
-            NOT_COMPUTED.into()
-        }
-        Some(PlaceAnswer::Critical { direction, verdict, .. }) => match verdict {
-            VerdictAnswer::Infeasible => NO_EQUILIBRIUM.into(),
-            VerdictAnswer::Unknown => NOT_COMPUTED.into(),
-            VerdictAnswer::NotConverged => format!("critical speed {NOT_COMPUTED}"),
-            VerdictAnswer::NoneUpTo(speed) => format!("no critical speed up to {speed:.0} m/s"),
-            VerdictAnswer::Critical(critical) => {
+        Some(Answer::Growth(Err(NoAnswer::Infeasible))) => NO_EQUILIBRIUM.into(),
+        Some(Answer::Growth(Err(NoAnswer::Failed)) | Answer::Spectrum(_) | Answer::Modes(_)) => NOT_COMPUTED.into(),
+        Some(Answer::Critical { direction, verdict, .. }) => match verdict {
+            Verdict::Infeasible => NO_EQUILIBRIUM.into(),
+            Verdict::Unknown => NOT_COMPUTED.into(),
+            Verdict::NotConverged => format!("critical speed {NOT_COMPUTED}"),
+            Verdict::NoneUpTo(speed) => format!("no critical speed up to {speed:.0} m/s"),
+            Verdict::Critical(critical) => {
                 let kind = match critical.kind {
-                    KindReport::Flutter => {
+                    Kind::Flutter => {
                         let (hertz, unit) = settings.hertz();
-                        format!("flutter at {} {unit}", digits::like(critical.frequency_hz * hertz, share))
+                        format!("flutter at {} {unit}", digits::like(critical.frequency_hz() * hertz, share))
                     }
-                    KindReport::Divergence => "divergence".into(),
+                    Kind::Divergence => "divergence".into(),
                 };
                 let worst = match known.wish.study {
-                    StudyChoice::Map { directions: DirectionsChoice::Worst, .. } => {
-                        format!("\nin the direction {:.1}°", series::degrees(*direction))
+                    Study::Map { directions: Directions::Worst(_), .. } => {
+                        format!("\nin the direction {:.1}°", series::degrees((*direction).into()))
                     }
                     _ => String::new(),
                 };
                 let speed = digits::like(critical.speed, share);
-                format!("critical speed {speed} m/s{worst}\n{kind}, cable {}", critical.cable)
+                format!("critical speed {speed} m/s{worst}\n{kind}, cable {}", critical.cable + 1)
             }
         },
     };

@@ -2,10 +2,9 @@
 
 use crate::app::state::MapQuantity;
 use crate::app::studies::Known;
-use crate::compute::protocol::{Missing, PlaceAnswer, VerdictAnswer};
 use crate::robot::Vec2;
-use crate::scenario::report::{CriticalReport, KindReport};
-use crate::study::Grid;
+use crate::stability::{Critical, Kind};
+use crate::study::{Answer, Grid, NoAnswer, Study, Verdict};
 
 /// Answers come from every so-many-th point of every so-many-th row first.
 const COARSEST: usize = 8;
@@ -52,7 +51,7 @@ pub struct Picture {
 impl Picture {
     /// The picture of `quantity`, where `known` is a map.
     pub fn new(known: &Known, quantity: MapQuantity) -> Option<Self> {
-        let grid = known.wish.grid()?;
+        let Study::Map { grid, .. } = known.wish.study else { return None };
         let own: Vec<Cell> = known.places.iter().map(|answer| cell(answer.as_ref(), quantity)).collect();
         let cells: Vec<Cell> = (0..own.len()).map(|index| own[coarser(&grid, index, &own)]).collect();
         let range = cells.iter().fold(None, |range: Option<[f64; 2]>, cell| match cell {
@@ -71,7 +70,7 @@ impl Picture {
             _ => [low, high],
         });
         let none_up_to = known.places.iter().filter_map(|answer| match answer {
-            Some(PlaceAnswer::Critical { verdict: VerdictAnswer::NoneUpTo(speed), .. }) => Some(*speed),
+            Some(Answer::Critical { verdict: Verdict::NoneUpTo(speed), .. }) => Some(*speed),
             _ => None,
         });
         let beyond = largest > range.map(|[_, high]| high);
@@ -215,27 +214,27 @@ impl Picture {
     }
 }
 
-fn cell(answer: Option<&PlaceAnswer>, quantity: MapQuantity) -> Cell {
+fn cell(answer: Option<&Answer>, quantity: MapQuantity) -> Cell {
     match answer {
-        Some(PlaceAnswer::Critical { verdict, .. }) => match verdict {
-            VerdictAnswer::Infeasible => Cell::Infeasible,
-            VerdictAnswer::Unknown | VerdictAnswer::NotConverged => Cell::Failed,
-            VerdictAnswer::NoneUpTo(_) => Cell::NoneUpTo,
-            VerdictAnswer::Critical(critical) => show(critical, quantity),
+        Some(Answer::Critical { verdict, .. }) => match verdict {
+            Verdict::Infeasible => Cell::Infeasible,
+            Verdict::Unknown | Verdict::NotConverged => Cell::Failed,
+            Verdict::NoneUpTo(_) => Cell::NoneUpTo,
+            Verdict::Critical(critical) => show(critical, quantity),
         },
-        Some(PlaceAnswer::Growth(Ok(rate))) if quantity == MapQuantity::Growth => Cell::Value(*rate),
-        Some(PlaceAnswer::Growth(Err(Missing::Infeasible))) => Cell::Infeasible,
-        Some(PlaceAnswer::Growth(Err(Missing::Failed))) => Cell::Failed,
-        Some(PlaceAnswer::Growth(_) | PlaceAnswer::Spectrum(_) | PlaceAnswer::Modes(_)) | None => Cell::Unknown,
+        Some(Answer::Growth(Ok(rate))) if quantity == MapQuantity::Growth => Cell::Value(*rate),
+        Some(Answer::Growth(Err(NoAnswer::Infeasible))) => Cell::Infeasible,
+        Some(Answer::Growth(Err(NoAnswer::Failed))) => Cell::Failed,
+        Some(Answer::Growth(_) | Answer::Spectrum(_) | Answer::Modes(_)) | None => Cell::Unknown,
     }
 }
 
-fn show(critical: &CriticalReport, quantity: MapQuantity) -> Cell {
+fn show(critical: &Critical, quantity: MapQuantity) -> Cell {
     match quantity {
         MapQuantity::Speed => Cell::Value(critical.speed),
-        MapQuantity::Frequency => Cell::Value(critical.frequency_hz),
-        MapQuantity::Kind => Cell::Class(usize::from(critical.kind == KindReport::Divergence)),
-        MapQuantity::Cable => Cell::Class(critical.cable.saturating_sub(1)),
+        MapQuantity::Frequency => Cell::Value(critical.frequency_hz()),
+        MapQuantity::Kind => Cell::Class(usize::from(critical.kind == Kind::Divergence)),
+        MapQuantity::Cable => Cell::Class(critical.cable),
         MapQuantity::Growth => Cell::Unknown,
     }
 }
@@ -293,29 +292,33 @@ mod tests {
     use super::*;
     use crate::app::state::Settings;
     use crate::app::studies::Wish;
-    use crate::compute::protocol::{AskedChoice, DirectionsChoice, StudyChoice};
     use crate::scenario::presets;
+    use crate::study::{Asked, Directions};
+    use nalgebra::Complex;
+    use std::f64::consts::TAU;
 
-    fn known(answer: impl Fn(usize, usize) -> Option<PlaceAnswer>) -> Known {
-        let asked = AskedChoice::Critical { max_speed: 40.0 };
-        let study = StudyChoice::Map { nx: 41, ny: 21, directions: DirectionsChoice::Motion, asked };
-        let wish = Wish::new(&presets::PRESETS[0].scenario(), study);
+    fn known(answer: impl Fn(usize, usize) -> Option<Answer>) -> Known {
+        let scenario = presets::PRESETS[0].scenario();
+        let (robot, motion) = scenario.to_robot().expect("physical");
+        let directions = Directions::One(motion.direction());
+        let study = Study::Map { grid: Grid::of(&robot, 41, 21), directions, asked: Asked::Critical { limit: 40.0 } };
+        let wish = Wish::new(&scenario, study);
         let places = (0..41 * 21).map(|index| answer(index % 41, index / 41)).collect();
         Known { wish, places, version: (1, 1) }
     }
 
-    fn critical(speed: f64, cable: usize) -> PlaceAnswer {
-        let critical = CriticalReport { speed, frequency_hz: 1.0, kind: KindReport::Flutter, cable };
-        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Critical(critical), wave_limit: None }
+    fn critical(speed: f64, cable: usize) -> Answer {
+        let critical = Critical { speed, eigenvalue: Complex::new(0.0, TAU), kind: Kind::Flutter, cable };
+        Answer::Critical { direction: Vec2::x(), verdict: Verdict::Critical(critical), wave_limit: None }
     }
 
-    fn infeasible() -> PlaceAnswer {
-        PlaceAnswer::Critical { direction: [1.0, 0.0], verdict: VerdictAnswer::Infeasible, wave_limit: None }
+    fn infeasible() -> Answer {
+        Answer::Critical { direction: Vec2::x(), verdict: Verdict::Infeasible, wave_limit: None }
     }
 
     #[test]
     fn values_lie_between_those_of_the_points() {
-        let plane = known(|column, row| Some(critical(column as f64 + 100.0 * row as f64, 4)));
+        let plane = known(|column, row| Some(critical(column as f64 + 100.0 * row as f64, 3)));
         let picture = Picture::new(&plane, MapQuantity::Speed).expect("a map");
         assert_eq!(picture.range, Some([0.0, 2040.0]));
         for (x, y) in [(-10.0, -5.0), (-9.8, -4.7), (0.0, 0.0), (10.0, 5.0)] {
@@ -331,7 +334,7 @@ mod tests {
 
     #[test]
     fn coarse_answers_stand_in_for_what_is_not_known_yet() {
-        let coarse = known(|column, row| (column % 8 == 0 && row % 8 == 0).then(|| critical(column as f64, 1)));
+        let coarse = known(|column, row| (column % 8 == 0 && row % 8 == 0).then(|| critical(column as f64, 0)));
         let picture = Picture::new(&coarse, MapQuantity::Speed).expect("a map");
         assert!(!picture.has(Cell::Unknown), "the whole picture is there at once");
         assert_eq!(picture.at(Vec2::new(-8.5, -5.0)), Cell::Value(0.0));
@@ -342,11 +345,11 @@ mod tests {
 
     #[test]
     fn rare_classes_are_labelled_and_fast_growth_does_not_hide_where_it_begins() {
-        let lone = known(|column, row| Some(critical(1.0, if (column, row) == (3, 3) { 1 } else { 4 })));
+        let lone = known(|column, row| Some(critical(1.0, if (column, row) == (3, 3) { 0 } else { 3 })));
         let labels = Picture::new(&lone, MapQuantity::Cable).expect("a map").labels();
         assert_eq!(labels.iter().filter(|(_, cell)| *cell == Cell::Class(0)).count(), 1);
 
-        let rates = known(|column, _| Some(PlaceAnswer::Growth(Ok(if column > 30 { 200.0 } else { -0.2 }))));
+        let rates = known(|column, _| Some(Answer::Growth(Ok(if column > 30 { 200.0 } else { -0.2 }))));
         let picture = Picture::new(&rates, MapQuantity::Growth).expect("a map");
         assert_eq!((picture.range, picture.beyond), (Some([-0.4, 0.4]), true));
         assert!(picture.labels().iter().all(|(_, cell)| *cell == Cell::Value(200.0)) && !picture.labels().is_empty());
@@ -355,12 +358,12 @@ mod tests {
     /// They are drawn, read and explained in another way than those without equilibrium, on every kind of map.
     #[test]
     fn what_could_not_be_computed_is_no_infeasible_pose() {
-        let verdict = |verdict| PlaceAnswer::Critical { direction: [1.0, 0.0], verdict, wave_limit: None };
-        let growth = PlaceAnswer::Growth;
+        let verdict = |verdict| Answer::Critical { direction: Vec2::x(), verdict, wave_limit: None };
+        let growth = Answer::Growth;
         for (failed, infeasible, quantity) in [
-            (verdict(VerdictAnswer::Unknown), verdict(VerdictAnswer::Infeasible), MapQuantity::Speed),
-            (verdict(VerdictAnswer::NotConverged), verdict(VerdictAnswer::Infeasible), MapQuantity::Cable),
-            (growth(Err(Missing::Failed)), growth(Err(Missing::Infeasible)), MapQuantity::Growth),
+            (verdict(Verdict::Unknown), verdict(Verdict::Infeasible), MapQuantity::Speed),
+            (verdict(Verdict::NotConverged), verdict(Verdict::Infeasible), MapQuantity::Cable),
+            (growth(Err(NoAnswer::Failed)), growth(Err(NoAnswer::Infeasible)), MapQuantity::Growth),
         ] {
             let half = known(|column, _| Some(if column < 20 { failed.clone() } else { infeasible.clone() }));
             let picture = Picture::new(&half, quantity).expect("a map");
@@ -381,7 +384,7 @@ mod tests {
         let at = |column: usize, row: usize| (column as f64 * 0.5 - 10.0, row as f64 * 0.5 - 5.0);
         let round = known(|column, row| {
             let (x, y) = at(column, row);
-            Some(PlaceAnswer::Growth(Ok(rate(x, y))))
+            Some(Answer::Growth(Ok(rate(x, y))))
         });
         let picture = Picture::new(&round, MapQuantity::Growth).expect("a map");
         let Some([low, high]) = picture.range else { panic!("no range") };
@@ -402,8 +405,7 @@ mod tests {
         }
         // All of one sign, or with gaps: no line, and zero in the middle all the same.
         for sign in [-1.0, 1.0] {
-            let one_sign =
-                known(|column, row| (column != 7).then_some(PlaceAnswer::Growth(Ok(sign * (0.1 + row as f64)))));
+            let one_sign = known(|column, row| (column != 7).then_some(Answer::Growth(Ok(sign * (0.1 + row as f64)))));
             let picture = Picture::new(&one_sign, MapQuantity::Growth).expect("a map");
             assert!(picture.zero_line().is_empty() && middle(&picture));
         }
@@ -411,7 +413,7 @@ mod tests {
 
     #[test]
     fn infeasible_points_are_covered_by_areas_and_take_no_part_in_values() {
-        let half = known(|column, _| Some(if column < 20 { infeasible() } else { critical(7.0, 1) }));
+        let half = known(|column, _| Some(if column < 20 { infeasible() } else { critical(7.0, 0) }));
         let picture = Picture::new(&half, MapQuantity::Speed).expect("a map");
         let areas = picture.areas(Cell::Infeasible);
         assert_eq!(areas.len(), 21);
