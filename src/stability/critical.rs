@@ -148,6 +148,23 @@ pub fn is_limit(speed: f64) -> bool {
 }
 
 /// A search for the critical speed of one problem in slices, so that it can be watched and abandoned.
+///
+/// ```
+/// use tautline::stability::{CriticalSearch, Outcome};
+/// use tautline::{Local, Motion, robot};
+///
+/// let motion = Motion::new([0.0, 0.0], [1.0, 0.0], 5.0)?;
+/// let local = Local::new(&robot::paper()?, &motion).map_err(|failure| failure.reason)?;
+/// let mut search = CriticalSearch::new(11.0);
+/// let outcome = loop {
+///     if let Some(outcome) = search.advance(&local.vibration)? {
+///         break outcome;
+///     }
+///     // Here it can be watched, by `search.searched_up_to()`, or abandoned.
+/// };
+/// assert_eq!(outcome, Outcome::NoneUpTo(11.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
 pub struct CriticalSearch {
     limit: f64,

@@ -6,6 +6,18 @@ use crate::stability::steps::{finish, step};
 use crate::stability::{CriticalSearch, NotConverged, Outcome, Spectra, Spectrum};
 
 /// Statics, motion and the small-vibration problem at one pose.
+///
+/// ```
+/// use tautline::stability::Outcome;
+/// use tautline::{Local, Motion, robot};
+///
+/// let motion = Motion::new([6.0, 0.0], [1.0, 0.0], 5.0)?;
+/// let local = Local::new(&robot::paper()?, &motion).map_err(|failure| failure.reason)?;
+/// assert!(local.spectrum(motion.speed())?.is_stable());
+/// let outcome = local.critical_speed(40.0)?;
+/// assert!(matches!(outcome, Outcome::Found(critical) if (critical.speed - 10.0125).abs() < 1e-4));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Local {
     /// Every cable's static shape.
