@@ -8,7 +8,6 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 template=$here/sw.js
 cd "${TRUNK_STAGING_DIR:?the folder of the build, which Trunk names}"
-python3 "$here/strip.py" .
 cp "$template" sw.js # here already, so that the build's name depends on it
 
 sum=(sha256sum)

@@ -37,5 +37,6 @@ else
     # lock file names is gone from some mirrors.
     need trunk "$trunk" trunk "2 minutes" --locked
     need wasm-bindgen "$wasm_bindgen" wasm-bindgen-cli "1 minute" --bin wasm-bindgen
+    export PATH="$root/web/bin:$PATH"
 fi
 exec "$@"

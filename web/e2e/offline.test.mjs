@@ -4,7 +4,7 @@ import { execFileSync } from "node:child_process";
 import { cpSync, mkdtempSync, readdirSync, readFileSync, renameSync, rmSync, rmdirSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
-import { after } from "node:test";
+import { after, test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
 import { fileURLToPath } from "node:url";
 import { browserTest, DIST, MAP, publish, waitForAnalysis, waitForStart } from "./harness.mjs";
@@ -36,6 +36,15 @@ function renewed() {
     execFileSync("bash", [SCRIPT], { env: { ...process.env, TRUNK_STAGING_DIR: folder } });
     return folder;
 }
+
+test("the page's programs have no names of functions, a tenth of what it would load", async () => {
+    const programs = readdirSync(DIST, { recursive: true }).filter((name) => name.endsWith(".wasm"));
+    assert.equal(programs.length, 2);
+    for (const name of programs) {
+        const program = await WebAssembly.compile(readFileSync(path.join(DIST, name)));
+        assert.equal(WebAssembly.Module.customSections(program, "name").length, 0, name);
+    }
+});
 
 async function published() {
     const site = await publish(DIST);

@@ -9,8 +9,7 @@ wasm=${CARGO_TARGET_DIR:-target}/wasm32-unknown-unknown/web-worker/js.wasm
 web/toolchain.sh cargo build --profile web-worker --target wasm32-unknown-unknown --no-default-features --features js --bin js
 rm -rf "$package"
 mkdir -p "$package"
-# The names of functions inside the module would be a twelfth of its size.
-web/tools.sh wasm-bindgen "$wasm" --target web --no-typescript --remove-name-section --remove-producers-section \
+web/tools.sh wasm-bindgen "$wasm" --target web --no-typescript --remove-producers-section \
     --out-name tautline --out-dir "$package"
 cp web/npm/{index.js,index.d.ts,node.js,README.md,example.html} LICENSE-MIT LICENSE-APACHE "$package"
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
