@@ -49,6 +49,20 @@ pub enum TensionLaw {
     },
 }
 
+impl TensionLaw {
+    /// The tension at the platform's position (x, y) in m, in newtons; 0 for a cable at equilibrium, whose tension no law
+    /// sets.
+    pub fn at(self, [x, y]: [f64; 2]) -> f64 {
+        match self {
+            Self::Equilibrium => 0.0,
+            Self::Constant(tension) => tension,
+            Self::Hypot { horizontal: [h0, hx, hy], vertical: [v0, vx, vy] } => {
+                (h0 + hx * x + hy * y).hypot(v0 + vx * x + vy * y)
+            }
+        }
+    }
+}
+
 /// One cable: from the platform to a fixed winch point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cable {

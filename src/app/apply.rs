@@ -3,14 +3,14 @@
 use eframe::egui::Context;
 
 use super::export::{self, Content};
-use super::files::Clip;
+use super::files::{self, Clip};
 use super::notices::About;
 use super::pinned::Pinned;
 use super::state::Document;
 use super::{Command, Tautline, fields, number};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
-use crate::scenario::{Scenario, file, link};
+use crate::scenario::{Scenario, link};
 
 impl Tautline {
     pub(super) fn apply(&mut self, context: &Context, command: Command) {
@@ -20,7 +20,7 @@ impl Tautline {
                 self.edit(Document { scenario: *scenario, original });
             }
             Command::Load(scenario) => self.open(*scenario),
-            Command::Read(text) => match read(&text) {
+            Command::Read(text) => match files::scenario(&text) {
                 Ok(scenario) => self.open(scenario),
                 Err(reason) => self.complain(reason),
             },
@@ -136,10 +136,10 @@ impl Tautline {
             Content::Plot(plot) => (export::suffix(plot), export::plot(plot, facts).map(|table| table.csv())),
             Content::Map => ("-map.csv", export::map(facts).map(|table| table.csv())),
             Content::PlotPicture if self.plots_open => {
-                return self.files.save_picture(context, &(name + "-plot.png"), self.places.plot);
+                return self.files.save_picture(context, &(name + "-plot.png"), self.regions.plot);
             }
             Content::CanvasPicture => {
-                return self.files.save_picture(context, &(name + "-canvas.png"), self.places.canvas);
+                return self.files.save_picture(context, &(name + "-canvas.png"), self.regions.canvas);
             }
             Content::PlotPicture => ("", None),
         };
@@ -147,19 +147,6 @@ impl Tautline {
             Some(text) => self.files.save(context, &(name + suffix), text.into_bytes()),
             None => self.complain("There is nothing to save yet: it is not on show, or still being computed.".into()),
         }
-    }
-}
-
-/// The scenario that a file's or the clipboard's text holds, or a link.
-pub(super) fn read(text: &str) -> Result<Scenario, String> {
-    file::check_size(text.len() as u64).map_err(|error| format!("The text {error}."))?;
-    let text = file::without_mark(text);
-    match text.split_once(link::MARK) {
-        // A scenario's own name may have such letters in it, but JSON begins with a brace.
-        Some((_, fragment)) if !text.trim_start().starts_with('{') => {
-            link::decode(fragment).map_err(|error| error.to_string())
-        }
-        _ => Scenario::from_json(text).map_err(|faults| faults.to_string()),
     }
 }
 

@@ -1,8 +1,10 @@
 //! How far the critical speed on show can be trusted: what the study of meshes says of it.
 
+use crate::app::answers::{Answers, CriticalState};
 use crate::app::digits;
 use crate::app::series::Meshes;
-use crate::app::studies::{Known, Wish};
+use crate::app::studies::{Known, Studies, Wish};
+use crate::compute::protocol::Topic;
 use crate::scenario::Scenario;
 use crate::stability::Critical;
 use crate::study::Study;
@@ -33,6 +35,16 @@ pub enum Certainty {
 }
 
 impl Certainty {
+    /// What is known of a design by now.
+    pub fn known(scenario: &Scenario, answers: &Answers, studies: &Studies) -> Self {
+        let critical = match answers.critical() {
+            CriticalState::Current(answer) => answer.critical.as_ref(),
+            _ => None,
+        };
+        let meshes = studies.shown(Topic::Convergence).map(|shown| shown.known);
+        critical.zip(meshes).map_or(Self::Unknown, |(critical, meshes)| Self::of(scenario, critical, meshes))
+    }
+
     /// What `known` says of the critical speed of `scenario`, where it is a study of its meshes and complete.
     pub fn of(scenario: &Scenario, critical: &Critical, known: &Known) -> Self {
         let same = match &known.wish.study {

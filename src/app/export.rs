@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use serde_json::Value;
 
-use crate::app::Facts;
+use crate::app::facts::Facts;
 use crate::app::series::{self, degrees};
 use crate::app::state::Plot;
 use crate::app::studies::Known;

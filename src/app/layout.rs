@@ -5,9 +5,10 @@ use std::ops::RangeInclusive;
 use eframe::egui::{CentralPanel, Frame, Panel, Pos2, Rect, Ui, Vec2, containers::panel::PanelState};
 
 use super::command::Command;
+use super::facts::Facts;
 use super::menu::{self, Possible};
 use super::state::Page;
-use super::{Facts, Tautline, canvas, gestures, panels, theme};
+use super::{Tautline, canvas, gestures, panels, theme};
 
 /// The least widths of the panels on the left and on the right, in points.
 const LEAST: [f32; 2] = [340.0, 280.0];
@@ -95,25 +96,25 @@ impl Tautline {
     fn answer(&mut self, ui: &mut Ui) {
         let top = ui.cursor().min;
         panels::answer::ui(ui, self.facts());
-        self.places.answer = Rect::from_min_max(top, ui.min_rect().max).intersect(ui.clip_rect());
+        self.regions.answer = Rect::from_min_max(top, ui.min_rect().max).intersect(ui.clip_rect());
     }
 
     fn controls(&mut self, ui: &mut Ui) {
         let facts = self.present.facts(self.state.settings);
         panels::controls::ui(&mut self.state, ui, facts, &mut self.commands);
-        self.places.controls = ui.min_rect().intersect(ui.clip_rect());
+        self.regions.controls = ui.min_rect().intersect(ui.clip_rect());
     }
 
     fn plots(&mut self, ui: &mut Ui) {
         self.plots_open = true;
         let facts = self.present.facts(self.state.settings);
         let place = panels::plots::ui(&mut self.state, ui, facts, &mut self.commands);
-        self.places.plot = place.intersect(ui.clip_rect());
+        self.regions.plot = place.intersect(ui.clip_rect());
     }
 
     fn canvas(&mut self, ui: &mut Ui) {
         let facts = self.present.facts(self.state.settings);
-        self.places.canvas = canvas::ui(&mut self.canvas, &mut self.state, ui, facts, &mut self.commands);
+        self.regions.canvas = canvas::ui(&mut self.canvas, &mut self.state, ui, facts, &mut self.commands);
     }
 
     pub(super) fn menu(&mut self, ui: &mut Ui) {

@@ -8,14 +8,9 @@ use eframe::egui::{
 use crate::app::command::Command;
 use crate::app::export::Content;
 use crate::app::meaning::Explain as _;
+use crate::app::shortcuts::{OPEN, REDO, REDO_TOO, SAVE, UNDO};
 use crate::app::state::{Camera, Plot, UiState};
 use crate::app::windows;
-
-const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Z);
-const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
-const REDO_TOO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Y);
-const OPEN: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::O);
-const SAVE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::S);
 
 /// What can be done, as far as it depends on more than the interface's state.
 #[derive(Clone, Copy, Debug)]
@@ -132,32 +127,6 @@ fn help(ui: &mut Ui, state: &mut UiState) {
     if entry(ui, "Validation", None, true) {
         state.windows.validation = true;
     }
-}
-
-/// All keys with what they do, for the window that lists them.
-pub fn shortcuts(context: &Context) -> Vec<(String, &'static str)> {
-    let keys = |keys: &[KeyboardShortcut]| {
-        let names: Vec<String> = keys.iter().map(|keys| context.format_shortcut(keys)).collect();
-        names.join(" or ")
-    };
-    let mut all = vec![
-        (keys(&[UNDO]), "Undo the last step; a drag is one step"),
-        (keys(&[REDO, REDO_TOO]), "Redo"),
-        (keys(&[OPEN]), "Open a scenario file"),
-        (keys(&[SAVE]), "Save the scenario"),
-    ];
-    let others = [
-        ("Tab, Shift+Tab", "From control to control, also the platform, the arrow and the winches"),
-        ("Arrow keys", "Platform or winch: move; arrow: ← → turn, ↑ ↓ speed. With Shift finely"),
-        ("+ and −, 0", "Zoom in and out, and show the whole robot"),
-        ("Space", "Play or pause the mode shape"),
-        (". and ,", "One step of the mode shape forward or back"),
-        ("M", "Map on or off"),
-        ("?", "This list"),
-        ("Esc", "Take back what is typed; close a list, a menu, a window, the tour, one at a time"),
-    ];
-    all.extend(others.map(|(keys, meaning)| (keys.to_owned(), meaning)));
-    all
 }
 
 /// Carries out the keys pressed in this frame.

@@ -3,8 +3,9 @@
 use std::fmt::Write as _;
 
 use crate::app::answers::CriticalState;
+use crate::app::digits;
+use crate::app::facts::Facts;
 use crate::app::panels::answer;
-use crate::app::{Facts, digits};
 use crate::stability::Kind;
 
 /// The critical speed in a sentence, once it is known; `None` while it is being computed.

@@ -11,6 +11,7 @@ mod certainty;
 mod command;
 mod digits;
 mod export;
+mod facts;
 mod fields;
 mod files;
 mod gestures;
@@ -27,7 +28,11 @@ mod page;
 mod panels;
 mod persist;
 mod pinned;
+mod regions;
+mod round;
 mod series;
+mod settings;
+mod shortcuts;
 mod state;
 mod studies;
 #[cfg(test)]
@@ -39,17 +44,19 @@ mod windows;
 
 use std::time::Duration;
 
-use eframe::egui::{self, Event, Rect, Ui};
+use eframe::egui::{self, Event, Ui};
 
 use answers::{Answers, CriticalState};
-use certainty::Certainty;
 use command::Command;
+use facts::Present;
 use files::Files;
 use history::History;
 use notices::{About, Notices};
 use persist::{Keeper, Keeping};
 use pinned::Pinned;
-use state::{Document, Settings, UiState};
+use regions::Regions;
+use settings::Settings;
+use state::{Document, UiState};
 use studies::{Joined, Order, Studies};
 
 use crate::compute::protocol::{Job, Reply, Request, Revision, Topic, Update, Which};
@@ -89,7 +96,7 @@ pub struct Tautline {
     /// Whether the plots were drawn in the last frame; a narrow screen may not show them.
     plots_open: bool,
     /// Where things were drawn in the last frame, for pictures of them.
-    places: Places,
+    regions: Regions,
     canvas: canvas::Runtime,
     windows: windows::Runtime,
     revision: Revision,
@@ -99,76 +106,6 @@ pub struct Tautline {
     page: page::Page,
     #[cfg(target_arch = "wasm32")]
     tone: tone::Tone,
-}
-
-/// The document and all that is known of it.
-struct Present {
-    document: Document,
-    answers: Answers,
-    studies: Studies,
-    /// The modes of the Campbell diagram.
-    joined: Joined,
-    /// The design to compare with.
-    pinned: Option<Pinned>,
-}
-
-impl Present {
-    fn facts(&self, settings: Settings) -> Facts<'_> {
-        let Self { document, answers, studies, joined, pinned } = self;
-        let certainty = certainty_of(&document.scenario, answers, studies);
-        Facts { document, answers, studies, joined, pinned: pinned.as_ref(), certainty, settings }
-    }
-}
-
-/// How far the critical speed of a design can be trusted.
-fn certainty_of(scenario: &Scenario, answers: &Answers, studies: &Studies) -> Certainty {
-    let critical = match answers.critical() {
-        CriticalState::Current(answer) => answer.critical.as_ref(),
-        _ => None,
-    };
-    let known = studies.shown(Topic::Convergence).map(|shown| shown.known);
-    critical.zip(known).map_or(Certainty::Unknown, |(critical, known)| Certainty::of(scenario, critical, known))
-}
-
-/// What panels read.
-#[derive(Clone, Copy, Debug)]
-pub struct Facts<'a> {
-    /// What is edited.
-    pub document: &'a Document,
-    /// What is known of the pose.
-    pub answers: &'a Answers,
-    /// What is known of more than the pose.
-    pub studies: &'a Studies,
-    /// The modes of the Campbell diagram.
-    pub joined: &'a Joined,
-    /// The design to compare with.
-    pub pinned: Option<&'a Pinned>,
-    /// How far the critical speed on show can be trusted.
-    pub certainty: Certainty,
-    /// Units.
-    pub settings: Settings,
-}
-
-impl Facts<'_> {
-    /// How far off other critical speeds than the one on show are to be expected, as a part of them.
-    pub fn share(&self) -> Option<f64> {
-        self.certainty.share(self.answers.last_critical()?.critical.as_ref()?)
-    }
-}
-
-/// Where things are on the screen.
-#[derive(Clone, Copy, Debug)]
-pub struct Places {
-    canvas: Rect,
-    controls: Rect,
-    answer: Rect,
-    plot: Rect,
-}
-
-impl Default for Places {
-    fn default() -> Self {
-        Self { canvas: Rect::NOTHING, controls: Rect::NOTHING, answer: Rect::NOTHING, plot: Rect::NOTHING }
-    }
 }
 
 /// What is on show at the start.
@@ -211,7 +148,7 @@ impl Tautline {
         let first = || presets::PRESETS[0].scenario();
         let mut notices = Notices::default();
         let linked = start.link.map(|link| {
-            apply::read(&link).unwrap_or_else(|text| {
+            files::scenario(&link).unwrap_or_else(|text| {
                 notices.complain(About::Action, text);
                 first()
             })
@@ -240,7 +177,7 @@ impl Tautline {
             files: Files::new(context),
             applied: Settings::default(),
             plots_open: false,
-            places: Places::default(),
+            regions: Regions::default(),
             canvas: canvas::Runtime::default(),
             windows: windows::Runtime::default(),
             revision: 0,
@@ -523,7 +460,7 @@ impl eframe::App for Tautline {
         }
         windows::ui(ui.ctx(), &mut self.state, &mut self.windows, &mut self.commands);
         files::announce_drop(ui.ctx());
-        tour::ui(ui.ctx(), &mut self.state, &self.places);
+        tour::ui(ui.ctx(), &mut self.state, &self.regions);
         // A browser lets a page write to the clipboard only while it handles the click that asks for it.
         for command in self.commands.extract_if(.., |command| command.is_copy()).collect::<Vec<_>>() {
             self.apply(ui.ctx(), command);

@@ -10,8 +10,9 @@ use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
 use crate::app::command::Command;
+use crate::app::facts::Facts;
+use crate::app::mirror;
 use crate::app::studies::{Known, Stage, Studies, TOPICS};
-use crate::app::{Facts, mirror};
 use crate::compute::protocol::{Revision, Topic};
 use crate::scenario::report::{CriticalReport, StatusReport};
 use crate::scenario::{Scenario, link};

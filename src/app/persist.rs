@@ -124,7 +124,8 @@ mod tests {
     use std::collections::HashMap;
 
     use super::*;
-    use crate::app::state::{FrequencyUnit, Plot};
+    use crate::app::settings::FrequencyUnit;
+    use crate::app::state::Plot;
     use crate::scenario::presets;
 
     #[derive(Default)]

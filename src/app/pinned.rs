@@ -104,6 +104,7 @@ impl Pinned {
     }
 
     /// By how much the present critical speed is higher, in m/s, where both have one.
+    #[cfg(target_arch = "wasm32")] // The mirror for screen readers tells it.
     pub fn difference(&self, now: &Answers) -> Option<f64> {
         let now = now.last_critical()?.critical.as_ref()?;
         Some(now.speed - self.critical()?.speed)
@@ -126,7 +127,7 @@ impl Pinned {
 
     /// How far its critical speed can be trusted.
     pub fn certainty(&self) -> Certainty {
-        super::certainty_of(&self.scenario, &self.answers, &self.studies)
+        Certainty::known(&self.scenario, &self.answers, &self.studies)
     }
 
     /// What is known of a study of it, once there is a picture.

@@ -4,10 +4,9 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use crate::app::digits;
-use crate::app::fields::Number;
+use crate::app::settings::Settings;
 use crate::compute::protocol::{ModeChoice, Which};
-use crate::scenario::Scenario;
+use crate::scenario::{Parameter, Scenario};
 
 /// What the user edits, with undo. Everything else on the screen follows from it.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,7 +105,7 @@ pub struct UiState {
     pub tour: Option<usize>,
     /// The control to bring into view.
     #[serde(skip)]
-    pub wanted: Option<Number>,
+    pub wanted: Option<Parameter>,
     /// Whether winches can be dragged.
     #[serde(skip)]
     pub unlocked: bool,
@@ -142,100 +141,6 @@ pub struct Windows {
     pub validation: bool,
 }
 
-/// What people choose once.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(default)]
-pub struct Settings {
-    /// Light, dark, or as the system.
-    pub theme: ThemeChoice,
-    /// How frequencies are written.
-    pub frequency: FrequencyUnit,
-    /// How stresses are written.
-    pub stress: StressUnit,
-    /// Whether nothing moves by itself.
-    pub motion: MotionChoice,
-}
-
-impl Settings {
-    /// Whether nothing may move by itself.
-    pub fn reduces_motion(self) -> bool {
-        match self.motion {
-            MotionChoice::System => system_reduces_motion(),
-            MotionChoice::Full => false,
-            MotionChoice::Reduced => true,
-        }
-    }
-
-    /// The unit of frequencies: what one hertz is in it, and its name.
-    pub fn hertz(self) -> (f64, &'static str) {
-        match self.frequency {
-            FrequencyUnit::Hertz => (1.0, "Hz"),
-            FrequencyUnit::RadiansPerSecond => (TAU, "rad/s"),
-        }
-    }
-
-    /// A frequency in Hz as a text in the unit chosen, with the digits that are certain.
-    pub fn frequency_text(self, frequency_hz: f64, uncertainty_hz: Option<f64>) -> String {
-        let (hertz, unit) = self.hertz();
-        format!("{} {unit}", digits::certain(frequency_hz * hertz, uncertainty_hz.map(|off| off * hertz)))
-    }
-}
-
-/// Whether the browser's user has asked for little movement; desktop systems do not tell.
-fn system_reduces_motion() -> bool {
-    #[cfg(target_arch = "wasm32")]
-    let reduced = web_sys::window()
-        .and_then(|window| window.match_media("(prefers-reduced-motion: reduce)").ok().flatten())
-        .is_some_and(|query| query.matches());
-    #[cfg(not(target_arch = "wasm32"))]
-    let reduced = false;
-    reduced
-}
-
-/// Light, dark, or as the system.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum ThemeChoice {
-    /// As the system.
-    #[default]
-    System,
-    /// Dark on light.
-    Light,
-    /// Light on dark.
-    Dark,
-}
-
-/// How frequencies are written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum FrequencyUnit {
-    /// In Hz.
-    #[default]
-    Hertz,
-    /// In rad/s.
-    RadiansPerSecond,
-}
-
-/// How stresses are written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum StressUnit {
-    /// In `MPa`, that is N/mm².
-    #[default]
-    Megapascal,
-    /// In `GPa`.
-    Gigapascal,
-}
-
-/// Whether things may move by themselves.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum MotionChoice {
-    /// As the system wishes, where it tells.
-    #[default]
-    System,
-    /// They may.
-    Full,
-    /// Nothing moves by itself.
-    Reduced,
-}
-
 impl Default for UiState {
     fn default() -> Self {
         Self {
@@ -259,7 +164,7 @@ impl Default for UiState {
 
 impl UiState {
     /// Brings the control of a number into view.
-    pub fn reveal(&mut self, number: Number) {
+    pub fn reveal(&mut self, number: Parameter) {
         self.wanted = Some(number);
         self.page = Page::Controls;
     }

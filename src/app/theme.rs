@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use eframe::egui::{Color32, Context, FontData, FontDefinitions, FontFamily, ThemePreference, Visuals};
 
-use crate::app::state::ThemeChoice;
+use crate::app::settings::ThemeChoice;
 
 /// The interface's own fonts: parts of Ubuntu Light and, for symbols such as ▲, ▶ and ↺, of Hack (src/app/fonts).
 pub fn install_fonts(context: &Context) {

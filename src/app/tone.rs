@@ -11,7 +11,7 @@ mod web;
 pub use web::Tone;
 
 use crate::app::number::rounded;
-use crate::app::state::Settings;
+use crate::app::settings::Settings;
 
 /// What is heard of 1 Hz, in Hz.
 const HEARD_OF_ONE: f64 = 200.0;
@@ -46,7 +46,7 @@ pub fn text(frequency_hz: Option<f64>, settings: Settings) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::state::FrequencyUnit;
+    use crate::app::settings::FrequencyUnit;
 
     #[test]
     fn every_frequency_has_a_tone_that_can_be_heard_and_follows_it() {

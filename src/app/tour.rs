@@ -4,7 +4,7 @@ use eframe::egui::{
     Align2, Area, Context, CornerRadius, Frame, Id, LayerId, Order, Rect, RichText, Stroke, StrokeKind,
 };
 
-use crate::app::Places;
+use crate::app::regions::Regions;
 use crate::app::state::{Page, UiState};
 use crate::app::theme;
 
@@ -54,7 +54,7 @@ pub fn text(state: &UiState) -> Option<String> {
 }
 
 /// Draws the step on show.
-pub fn ui(context: &Context, state: &mut UiState, places: &Places) {
+pub fn ui(context: &Context, state: &mut UiState, regions: &Regions) {
     let Some(step) = state.tour else { return };
     let (title, text, part) = STEPS[step.min(STEPS.len() - 1)];
     // On a narrow screen plots and controls share their place.
@@ -64,17 +64,17 @@ pub fn ui(context: &Context, state: &mut UiState, places: &Places) {
         _ => {}
     }
     let place = match part {
-        Part::Canvas => places.canvas,
-        Part::Answer => places.answer,
-        Part::Plots => places.plot,
-        Part::Controls => places.controls,
+        Part::Canvas => regions.canvas,
+        Part::Answer => regions.answer,
+        Part::Plots => regions.plot,
+        Part::Controls => regions.controls,
         Part::All => context.content_rect(),
     };
     let visuals = context.global_style().visuals.clone();
     let painter = context.layer_painter(LayerId::new(Order::Foreground, Id::unique("tour mark")));
     let stroke = Stroke::new(2.0, theme::accent(&visuals));
     painter.rect_stroke(place.shrink(2.0), CornerRadius::same(4), stroke, StrokeKind::Inside);
-    let bottom = bottom(context.content_rect(), places.canvas);
+    let bottom = bottom(context.content_rect(), regions.canvas);
     let width = (bottom.width() - 24.0).min(380.0);
     let area = Area::new(Id::unique("tour")).order(Order::Foreground).pivot(Align2::CENTER_BOTTOM);
     area.fixed_pos(bottom.center_bottom() - eframe::egui::Vec2::new(0.0, 12.0)).show(context, |ui| {

@@ -5,11 +5,13 @@ pub mod file;
 mod layout;
 pub mod link;
 pub mod options;
+mod parameter;
 pub mod presets;
 mod reader;
 pub mod report;
 pub mod v1;
 
+pub use parameter::Parameter;
 pub use presets::Preset;
 pub use report::Report;
 pub use v1::Scenario;

@@ -3,7 +3,7 @@
 
 use eframe::egui::{Pos2, Rect, Vec2};
 
-use super::paint::round_step;
+use crate::app::round::round_step;
 
 /// Points between the platform's middle and the arrow at rest, where there is room for them.
 const GAP: f32 = 26.0;

@@ -1,6 +1,5 @@
 //! What can be grabbed on the canvas: the platform, the arrow's tip, the background. All of it by keyboard, too.
 
-use eframe::egui::emath::smart_aim::best_in_range_f64;
 use eframe::egui::{
     CursorIcon, EventFilter, InputState, Key, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
 };
@@ -9,6 +8,7 @@ use super::paint::arrow_tip;
 use super::{Arrow, Scene, View};
 use crate::app::command::Command;
 use crate::app::meaning::Explain as _;
+use crate::app::round::roundest;
 use crate::app::state::{Camera, Document};
 use crate::app::theme;
 
@@ -160,11 +160,6 @@ fn moved(first: [f64; 2], to: [f64; 2], view: &View) -> [f64; 2] {
 /// The number that a hand means that moves `first` to `to`, where a point of the screen is so much.
 fn meant(first: f64, to: f64, point: f64) -> f64 {
     if (to - first).abs() < 0.5 * point { first } else { roundest(to, point) }
-}
-
-/// The roundest number within half a point of the screen: a hand cannot mean it more exactly.
-pub fn roundest(value: f64, point: f64) -> f64 {
-    best_in_range_f64(value - 0.5 * point, value + 0.5 * point)
 }
 
 /// Arrow keys pressed while `response` has the focus: right minus left, up minus down, and 0.1 with Shift.

@@ -13,12 +13,12 @@ use eframe::egui::{self, Rect, Sense, Ui};
 use arrow::Arrow;
 pub use map::named;
 pub use model::{Scene, frame, phase_advance};
-pub use paint::round_step;
 pub use view::View;
 
 use crate::app::command::Command;
+use crate::app::facts::Facts;
 use crate::app::state::{Plot, UiState};
-use crate::app::{Facts, digits, series};
+use crate::app::{digits, series};
 use crate::compute::protocol::Topic;
 
 /// What the canvas keeps from frame to frame.

@@ -1,5 +1,6 @@
 //! Files: opened by a dialog, dropped on the window or the page, pasted, and saved.
 
+mod outbox;
 #[cfg(not(target_arch = "wasm32"))]
 #[path = "native.rs"]
 mod system;
@@ -11,8 +12,11 @@ use std::sync::mpsc::{Receiver, Sender, channel};
 
 use eframe::egui::{Align2, Color32, ColorImage, Context, Event, FontId, Id, LayerId, Order, Pos2, Rect, Vec2};
 
+pub use outbox::Clip;
+
 use crate::app::command::Command;
-use crate::scenario::file::FileError;
+use crate::scenario::{Scenario, file, link};
+use outbox::Outbox;
 
 /// What comes of files that are being read.
 #[derive(Debug)]
@@ -21,91 +25,45 @@ pub struct Files {
     receiver: Receiver<Command>,
 }
 
-/// Something for the clipboard.
-#[derive(Clone, Debug)]
-pub struct Clip {
-    /// What it is, as a sentence begins with it.
-    pub what: &'static str,
-    /// The text itself.
-    pub text: String,
-    /// What is added to "… is on the clipboard" once it is there.
-    pub more: String,
-}
-
-impl Clip {
-    fn done(&self) -> String {
-        format!("{} is on the clipboard{}", self.what, self.more)
-    }
-}
-
-/// Hands over what was read, from wherever that happens.
-#[derive(Clone)]
-struct Hand {
-    sender: Sender<Command>,
-    context: Context,
-}
-
-impl Hand {
-    fn over(&self, name: &str, text: Result<String, FileError>) {
-        self.command(match text {
-            Ok(text) => Command::Read(text),
-            Err(error) => Command::Complain(format!("{name} {error}.")),
-        });
-    }
-
-    fn saved(&self, name: &str, outcome: Result<Option<String>, String>) {
-        match outcome {
-            Ok(place) => self.command(Command::Done(place.map(|place| format!("Saved {place}.")))),
-            Err(reason) => self.command(Command::Complain(format!("{name} could not be saved: {reason}"))),
-        }
-    }
-
-    fn command(&self, command: Command) {
-        // Nobody is left to hear of it once the application is gone.
-        let _ = self.sender.send(command);
-        self.context.request_repaint();
-    }
-}
-
 impl Files {
     /// Nothing is read yet.
     pub fn new(context: &Context) -> Self {
         let (sender, receiver) = channel();
         let files = Self { sender, receiver };
-        system::prepare(&files.hand(context));
+        system::prepare(&files.outbox(context));
         files
     }
 
-    fn hand(&self, context: &Context) -> Hand {
-        Hand { sender: self.sender.clone(), context: context.clone() }
+    fn outbox(&self, context: &Context) -> Outbox {
+        Outbox { sender: self.sender.clone(), context: context.clone() }
     }
 
     /// Lets the user choose a scenario file.
     pub fn open(&self, context: &Context) {
-        system::open(self.hand(context));
+        system::open(self.outbox(context));
     }
 
     /// Saves `bytes` where the user says; a browser's downloads go under `name`.
     pub fn save(&self, context: &Context, name: &str, bytes: Vec<u8>) {
-        system::save(self.hand(context), name, bytes);
+        system::save(self.outbox(context), name, bytes);
     }
 
     /// Puts a text on the clipboard, and tells it once it is there. Where a browser does not let the page do that, the
     /// text is shown to be copied by hand.
     pub fn copy(&self, context: &Context, clip: Clip) {
-        system::copy(self.hand(context), clip);
+        system::copy(self.outbox(context), clip);
     }
 
     /// Saves the part of the window within `rect` as a PNG, once the window has been drawn again.
     pub fn save_picture(&self, context: &Context, name: &str, rect: Rect) {
-        let (hand, name) = (self.hand(context), name.to_owned());
+        let (outbox, name) = (self.outbox(context), name.to_owned());
         let scale = context.pixels_per_point();
         context.request_screenshot(move |image| {
             #[expect(clippy::cast_precision_loss)] // A few thousand pixels.
             let whole = Rect::from_min_size(Pos2::ZERO, Vec2::from(image.size.map(|n| n as f32)) / scale);
             match png(&image.region(&rect.intersect(whole), Some(scale))) {
-                Ok(bytes) => system::save(hand, &name, bytes),
-                Err(reason) => hand.command(Command::Complain(format!("{name} could not be made: {reason}"))),
+                Ok(bytes) => system::save(outbox, &name, bytes),
+                Err(reason) => outbox.command(Command::Complain(format!("{name} could not be made: {reason}"))),
             }
         });
     }
@@ -114,7 +72,7 @@ impl Files {
     pub fn poll(&self, context: &Context) -> Vec<Command> {
         let dropped = context.input(|input| input.raw.dropped_files.clone());
         if !dropped.is_empty() {
-            system::read(self.hand(context), dropped);
+            system::read(self.outbox(context), dropped);
         }
         let pasted = |event: &Event| match event {
             Event::Paste(text) => Some(Command::Read(text.clone())),
@@ -126,6 +84,19 @@ impl Files {
         }
         commands.extend(self.receiver.try_iter());
         commands
+    }
+}
+
+/// The scenario that a file's or the clipboard's text holds, or a link.
+pub fn scenario(text: &str) -> Result<Scenario, String> {
+    file::check_size(text.len() as u64).map_err(|error| format!("The text {error}."))?;
+    let text = file::without_mark(text);
+    match text.split_once(link::MARK) {
+        // A scenario's own name may have such letters in it, but JSON begins with a brace.
+        Some((_, fragment)) if !text.trim_start().starts_with('{') => {
+            link::decode(fragment).map_err(|error| error.to_string())
+        }
+        _ => Scenario::from_json(text).map_err(|faults| faults.to_string()),
     }
 }
 

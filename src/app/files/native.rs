@@ -7,51 +7,51 @@ use std::thread;
 use eframe::egui::DroppedFileHandle;
 use rfd::AsyncFileDialog;
 
-use super::{Clip, Hand};
+use super::outbox::{Clip, Outbox};
 use crate::app::command::Command;
 use crate::scenario::file;
 
 /// Nothing needs to be.
-pub(super) fn prepare(_: &Hand) {}
+pub(super) fn prepare(_: &Outbox) {}
 
 /// The system's clipboard takes what it is given.
 #[expect(clippy::needless_pass_by_value)] // As in the browser, which answers after the call.
-pub(super) fn copy(hand: Hand, clip: Clip) {
+pub(super) fn copy(outbox: Outbox, clip: Clip) {
     let done = clip.done();
-    hand.context.copy_text(clip.text);
-    hand.command(Command::Done(Some(done)));
+    outbox.context.copy_text(clip.text);
+    outbox.command(Command::Done(Some(done)));
 }
 
 fn name(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
-pub(super) fn open(hand: Hand) {
+pub(super) fn open(outbox: Outbox) {
     let dialog = AsyncFileDialog::new().set_title("Open a scenario").add_filter("Scenario", &["json"]).pick_file();
     thread::spawn(move || {
         if let Some(chosen) = pollster::block_on(dialog) {
-            hand.over(&chosen.file_name(), file::open(chosen.path()));
+            outbox.read(&chosen.file_name(), file::open(chosen.path()));
         }
     });
 }
 
-pub(super) fn read(hand: Hand, files: Vec<DroppedFileHandle>) {
+pub(super) fn read(outbox: Outbox, files: Vec<DroppedFileHandle>) {
     // One after the other, so that the last of them is the one on show.
     thread::spawn(move || {
         for dropped in files {
             // Not by the handle itself, which does not tell a size before it reads.
-            hand.over(&name(dropped.path()), file::open(dropped.path()));
+            outbox.read(&name(dropped.path()), file::open(dropped.path()));
         }
     });
 }
 
-pub(super) fn save(hand: Hand, file: &str, bytes: Vec<u8>) {
+pub(super) fn save(outbox: Outbox, file: &str, bytes: Vec<u8>) {
     let dialog = AsyncFileDialog::new().set_file_name(file).save_file();
     let file = file.to_owned();
     thread::spawn(move || {
         let Some(chosen) = pollster::block_on(dialog) else { return };
         let written = std::fs::write(chosen.path(), bytes);
         let place = chosen.path().display().to_string();
-        hand.saved(&file, written.map(|()| Some(place)).map_err(|error| error.to_string()));
+        outbox.saved(&file, written.map(|()| Some(place)).map_err(|error| error.to_string()));
     });
 }

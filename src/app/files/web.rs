@@ -7,7 +7,7 @@ use js_sys::{Array, Reflect, Uint8Array};
 use wasm_bindgen::prelude::*;
 use wasm_bindgen_futures::{JsFuture, spawn_local};
 
-use super::{Clip, Hand};
+use super::outbox::{Clip, Outbox};
 use crate::app::command::Command;
 use crate::scenario::file::{self, FileError};
 
@@ -32,32 +32,32 @@ async fn text(file: &web_sys::File) -> Result<String, FileError> {
     file::decode(&Uint8Array::new(&buffer).to_vec())
 }
 
-pub(super) fn open(hand: Hand) {
+pub(super) fn open(outbox: Outbox) {
     let Some(input) = element::<web_sys::HtmlInputElement>("input") else { return };
     input.set_type("file");
     input.set_accept(".json,application/json");
     let chosen = input.clone();
     let take = Closure::once_into_js(move || {
         let Some(file) = chosen.files().and_then(|files| files.get(0)) else { return };
-        spawn_local(async move { hand.over(&file.name(), text(&file).await) });
+        spawn_local(async move { outbox.read(&file.name(), text(&file).await) });
     });
     input.set_onchange(Some(take.unchecked_ref()));
     input.click();
 }
 
-pub(super) fn read(hand: Hand, files: Vec<DroppedFileHandle>) {
+pub(super) fn read(outbox: Outbox, files: Vec<DroppedFileHandle>) {
     spawn_local(async move {
         // One after the other, so that the last of them is the one on show.
         for file in files.iter().filter_map(|dropped| dropped.web_file()) {
-            hand.over(&file.name(), text(file).await);
+            outbox.read(&file.name(), text(file).await);
         }
     });
 }
 
 #[expect(clippy::needless_pass_by_value)] // As on the desktop, where writing goes on after the call.
-pub(super) fn save(hand: Hand, file: &str, bytes: Vec<u8>) {
+pub(super) fn save(outbox: Outbox, file: &str, bytes: Vec<u8>) {
     // The browser says itself where a download has gone.
-    hand.saved(file, download(file, &bytes).map(|()| None).map_err(|error| reason(&error)));
+    outbox.saved(file, download(file, &bytes).map(|()| None).map_err(|error| reason(&error)));
 }
 
 fn download(file: &str, bytes: &[u8]) -> Result<(), JsValue> {
@@ -72,8 +72,8 @@ fn download(file: &str, bytes: &[u8]) -> Result<(), JsValue> {
 
 /// Has the texts that are copied out of labels and fields go the same way as the others. The drawing library's own way
 /// drops them without a word where the browser refuses.
-pub(super) fn prepare(hand: &Hand) {
-    hand.context.add_plugin(Copies(hand.sender.clone()));
+pub(super) fn prepare(outbox: &Outbox) {
+    outbox.context.add_plugin(Copies(outbox.sender.clone()));
 }
 
 /// Takes the texts for the clipboard out of what the drawing library puts out.
@@ -87,33 +87,33 @@ impl Plugin for Copies {
     fn output_hook(&mut self, context: &Context, output: &mut FullOutput) {
         output.platform_output.commands.retain(|command| {
             let OutputCommand::CopyText(text) = command else { return true };
-            let hand = Hand { sender: self.0.clone(), context: context.clone() };
-            put(hand, "The text", text.clone(), None);
+            let outbox = Outbox { sender: self.0.clone(), context: context.clone() };
+            put(outbox, "The text", text.clone(), None);
             false
         });
     }
 }
 
-pub(super) fn copy(hand: Hand, clip: Clip) {
+pub(super) fn copy(outbox: Outbox, clip: Clip) {
     let done = clip.done();
-    put(hand, clip.what, clip.text, Some(done));
+    put(outbox, clip.what, clip.text, Some(done));
 }
 
 /// Puts a text on the clipboard, and tells that it is `done` once the browser says so.
-fn put(hand: Hand, what: &'static str, text: String, done: Option<String>) {
+fn put(outbox: Outbox, what: &'static str, text: String, done: Option<String>) {
     let Some(clipboard) = clipboard() else {
-        return by_hand(&hand, what, &text, "the browser has no clipboard for a page that did not come over https");
+        return by_hand(&outbox, what, &text, "the browser has no clipboard for a page that did not come over https");
     };
     // Begun at once: browsers allow it only while they handle a click.
     let written = clipboard.write_text(&text);
     spawn_local(async move {
         match JsFuture::from(written).await {
-            Ok(_) => done.into_iter().for_each(|done| hand.command(Command::Done(Some(done)))),
+            Ok(_) => done.into_iter().for_each(|done| outbox.command(Command::Done(Some(done)))),
             Err(error) => {
                 let reason = reason(&error);
                 // Chromium begins with the names of functions.
                 let reason = reason.rsplit("': ").next().unwrap_or(&reason).trim_end_matches('.');
-                by_hand(&hand, what, &text, &format!("the browser does not allow it here ({reason})"));
+                by_hand(&outbox, what, &text, &format!("the browser does not allow it here ({reason})"));
             }
         }
     });
@@ -128,11 +128,11 @@ fn clipboard() -> Option<web_sys::Clipboard> {
 
 /// Shows a text to be copied by hand, and why. Its field is the browser's own, for what is selected there can be copied
 /// everywhere.
-fn by_hand(hand: &Hand, what: &str, text: &str, why: &str) {
+fn by_hand(outbox: &Outbox, what: &str, text: &str, why: &str) {
     let why = format!("{what} could not be put on the clipboard: {why}.");
-    let keys = hand.context.format_shortcut(&KeyboardShortcut::new(Modifiers::COMMAND, Key::C));
+    let keys = outbox.context.format_shortcut(&KeyboardShortcut::new(Modifiers::COMMAND, Key::C));
     if show(&format!("{why} It is selected here, to be copied by hand ({keys})."), text).is_none() {
-        hand.command(Command::Complain(format!("{why} To be copied by hand: {text}")));
+        outbox.command(Command::Complain(format!("{why} To be copied by hand: {text}")));
     }
 }
 

@@ -2,9 +2,9 @@
 
 use eframe::egui::{Label, RichText, Spinner, Ui};
 
-use crate::app::Facts;
 use crate::app::answers::CriticalState;
 use crate::app::certainty::Certainty;
+use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
 use crate::app::{digits, theme};
 use crate::compute::protocol::CriticalAnswer;

@@ -8,9 +8,9 @@ use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoints, P
 use nalgebra::Complex;
 
 use super::{explain, few_lines, plot_height, study};
-use crate::app::Facts;
 use crate::app::command::Command;
 use crate::app::digits;
+use crate::app::facts::Facts;
 use crate::app::gestures;
 use crate::app::number::{self, Control, Unit};
 use crate::app::series::{self, Piece};

@@ -6,9 +6,9 @@ use eframe::egui::{Align2, Color32, RichText, Ui, Visuals};
 use egui_plot::{HoverPosition, Line, LineStyle, MarkerShape, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text};
 
 use super::{explain, plot_height, study};
-use crate::app::Facts;
 use crate::app::command::Command;
 use crate::app::digits;
+use crate::app::facts::Facts;
 use crate::app::gestures;
 use crate::app::meaning::Explain as _;
 use crate::app::series::{self, degrees};
@@ -119,7 +119,7 @@ fn rings(plot: &mut PlotUi<'_>, visuals: &Visuals, largest: f64) {
         let (sine, cosine) = (TAU * f64::from(spoke) / 12.0).sin_cos();
         plot.line(ring(vec![[0.0, 0.0], [1.1 * largest * cosine, 1.1 * largest * sine]]));
     }
-    let step = crate::app::canvas::round_step(largest / 4.0);
+    let step = crate::app::round::round_step(largest / 4.0);
     for i in 1..=5_u8 {
         let radius = f64::from(i) * step;
         if radius > 1.1 * largest {

@@ -6,9 +6,9 @@ use eframe::egui::Ui;
 use egui_plot::{HoverPosition, MarkerShape, Plot, PlotPoints, Points, VLine};
 
 use super::{STALE, explain, near, plot_height, with_modes};
-use crate::app::Facts;
 use crate::app::command::Command;
 use crate::app::digits;
+use crate::app::facts::Facts;
 use crate::app::gestures;
 use crate::app::pinned::Pinned;
 use crate::app::theme;

@@ -4,7 +4,7 @@ use eframe::egui::Ui;
 use egui_plot::{Corner, HLine, HoverPosition, Legend, Line, LineStyle, Plot, PlotPoints, VLine};
 
 use super::{STALE, explain, plot_height};
-use crate::app::Facts;
+use crate::app::facts::Facts;
 use crate::app::gestures;
 use crate::app::{digits, series, theme};
 

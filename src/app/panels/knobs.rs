@@ -3,14 +3,13 @@
 use eframe::egui::{Align2, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
 use super::{STALE, explain};
-use crate::app::Facts;
 use crate::app::digits;
-use crate::app::fields::Number;
+use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
 use crate::app::state::UiState;
 use crate::app::theme;
 use crate::robot::TensionLaw;
-use crate::scenario::Scenario;
+use crate::scenario::{Parameter, Scenario};
 use crate::study::{Knob, Sensitivity};
 
 /// Height of a bar with its room, in points.
@@ -123,18 +122,18 @@ fn name(knob: Knob) -> String {
 }
 
 /// The control that turns a knob: of a tension law its first coefficient.
-fn control(knob: Knob, scenario: &Scenario) -> Number {
+fn control(knob: Knob, scenario: &Scenario) -> Parameter {
     match knob {
-        Knob::YoungsModulus => Number::YoungsModulus,
-        Knob::Area => Number::Area,
-        Knob::MassPerLength => Number::MassPerLength,
-        Knob::PlatformMass => Number::PlatformMass,
-        Knob::Alpha => Number::Alpha,
-        Knob::Beta => Number::Beta,
-        Knob::Gravity => Number::Gravity,
+        Knob::YoungsModulus => Parameter::YoungsModulus,
+        Knob::Area => Parameter::Area,
+        Knob::MassPerLength => Parameter::MassPerLength,
+        Knob::PlatformMass => Parameter::PlatformMass,
+        Knob::Alpha => Parameter::Alpha,
+        Knob::Beta => Parameter::Beta,
+        Knob::Gravity => Parameter::Gravity,
         Knob::Tension(cable) => match scenario.cables.get(cable).map(|cable| cable.tension) {
-            Some(TensionLaw::Hypot { .. }) => Number::Horizontal(cable, 0),
-            _ => Number::Tension(cable),
+            Some(TensionLaw::Hypot { .. }) => Parameter::Horizontal(cable, 0),
+            _ => Parameter::Tension(cable),
         },
     }
 }
@@ -166,9 +165,9 @@ mod tests {
                 assert!(number.is_in(&scenario), "{}: {number:?}", preset.name);
                 let fixed: Vec<Field> = fields::BODY.into_iter().chain(fields::MODEL).collect();
                 let shown = match number {
-                    Number::Tension(cable) => fields::tension(cable).number == number,
-                    Number::Horizontal(cable, _) => fields::law(cable)[0].number == number,
-                    _ => fixed.iter().any(|field| field.number == number),
+                    Parameter::Tension(cable) => fields::tension(cable).parameter == number,
+                    Parameter::Horizontal(cable, _) => fields::law(cable)[0].parameter == number,
+                    _ => fixed.iter().any(|field| field.parameter == number),
                 };
                 assert!(shown, "{}: {number:?}", preset.name);
             }

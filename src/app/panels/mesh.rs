@@ -4,9 +4,9 @@ use eframe::egui::Ui;
 use egui_plot::{Axis, HLine, HoverPosition, Line, LineStyle, Plot, PlotPoints, Points, Span, VLine};
 
 use super::{explain, few_lines, plot_height, study};
-use crate::app::Facts;
 use crate::app::command::Command;
 use crate::app::digits;
+use crate::app::facts::Facts;
 use crate::app::gestures;
 use crate::app::series::Meshes;
 use crate::app::studies::Shown;

@@ -11,7 +11,8 @@ pub mod line;
 pub mod mesh;
 pub mod modes;
 pub mod plots;
-pub mod robot;
+mod robot;
+mod rows;
 
 use eframe::egui::{CollapsingHeader, Ui};
 use egui_plot::{GridInput, GridMark};
@@ -20,6 +21,7 @@ use crate::app::answers::Answers;
 use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::meaning::Explain as _;
+use crate::app::round::round_step;
 use crate::app::studies::{Shown, Stage, Studies};
 use crate::compute::protocol::{Extent, ModeChoice, PoseAnswer, Topic, Which};
 
@@ -67,7 +69,7 @@ fn plot_height(ui: &Ui, plots: u8) -> f32 {
 #[expect(clippy::needless_pass_by_value)] // As egui_plot calls it.
 fn few_lines(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
-    let step = canvas::round_step((high - low) / 4.0);
+    let step = round_step((high - low) / 4.0);
     // At most five or so: the step follows the range.
     #[expect(clippy::cast_possible_truncation)]
     let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);

@@ -4,9 +4,9 @@ use eframe::egui::{Label, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder};
 
 use super::{STALE, explain, near, plot_height, with_modes};
-use crate::app::Facts;
 use crate::app::command::Command;
 use crate::app::digits;
+use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
 use crate::app::pinned::Pinned;
 use crate::app::theme;

@@ -5,13 +5,14 @@ use std::f64::consts::TAU;
 use eframe::egui::{Rect, Response, Slider, SliderClamping, Ui, Vec2};
 
 use super::{campbell, directions, eigenvalues, growth, knobs, line, mesh, modes};
-use crate::app::Facts;
 use crate::app::command::Command;
 use crate::app::digits;
+use crate::app::facts::Facts;
 use crate::app::gestures;
 use crate::app::meaning::Explain as _;
 use crate::app::number::{self, Control, Unit};
-use crate::app::state::{Playback, Plot, Settings, UiState};
+use crate::app::settings::Settings;
+use crate::app::state::{Playback, Plot, UiState};
 use crate::app::tone;
 use crate::compute::protocol::{ModeChoice, ModeShape, Which};
 use crate::robot::Linearisation;

@@ -2,7 +2,7 @@
 
 use eframe::egui::{Button, CollapsingHeader, ComboBox, Ui};
 
-use super::controls::{NUMBER, Sheet, rows};
+use super::rows::{NUMBER, Sheet, rows};
 use crate::app::meaning::Explain as _;
 use crate::app::number::{Control, Unit};
 use crate::app::{canvas, fields};
@@ -136,10 +136,8 @@ fn another(scenario: &Scenario) -> Cable {
         scenario.cables.iter().map(away).fold(f64::INFINITY, f64::min)
     };
     let anchor = places.into_iter().max_by(|a, b| room(a).total_cmp(&room(b))).unwrap_or([middle, top]);
-    let tensions: Vec<f64> = (0..scenario.cables.len())
-        .filter(|&cable| scenario.cables[cable].tension != TensionLaw::Equilibrium)
-        .map(|cable| super::controls::tension_here(scenario, cable))
-        .collect();
+    let prescribed = scenario.cables.iter().filter(|cable| cable.tension != TensionLaw::Equilibrium);
+    let tensions: Vec<f64> = prescribed.map(|cable| cable.tension.at(scenario.motion.position)).collect();
     let mean = tensions.iter().sum::<f64>() / tensions.len().max(1) as f64;
     // To three digits: nobody means it more exactly.
     let tension = format!("{mean:.2e}").parse().ok().filter(|tension| *tension > 0.0).unwrap_or(1.0);

@@ -11,6 +11,17 @@ const PLACES: usize = 5;
 /// … and where the quantity changes by this part altogether.
 const CHANGE: f64 = 0.02;
 
+impl Along {
+    /// The paper's two findings, each on the stretches where it holds from place to place: toward the border the critical
+    /// speed falls, and the frequency rises.
+    pub fn findings(&self) -> Option<String> {
+        let samples = self.samples();
+        let mut found = findings(&samples);
+        found.retain(|finding| finding.holds(&samples));
+        told(self, &found)
+    }
+}
+
 /// What a finding is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
@@ -72,7 +83,7 @@ impl Quantity {
 }
 
 /// On either side of the middle of the longest taut stretch, and for each quantity, the longest stretch on which it holds.
-pub fn findings(samples: &[Option<Sample>]) -> Vec<Finding> {
+fn findings(samples: &[Option<Sample>]) -> Vec<Finding> {
     // What is taut in one piece, whatever its modes.
     let mut taut: Option<Range<usize>> = None;
     let mut i = 0;
@@ -121,7 +132,7 @@ pub fn findings(samples: &[Option<Sample>]) -> Vec<Finding> {
 }
 
 /// The findings in a sentence; `None` where there are none.
-pub fn told(along: &Along, findings: &[Finding]) -> Option<String> {
+fn told(along: &Along, findings: &[Finding]) -> Option<String> {
     let stretches = |quantity| {
         let all = findings.iter().filter(|finding| finding.quantity == quantity);
         let named: Vec<String> = all.map(|finding| stretch(along, finding.stretch)).collect();

@@ -123,15 +123,6 @@ impl Along {
         }
         stretches
     }
-
-    /// The paper's two findings, each on the stretches where it holds from place to place: toward the border the critical
-    /// speed falls, and the frequency rises.
-    pub fn findings(&self) -> Option<String> {
-        let samples = self.samples();
-        let mut found = findings::findings(&samples);
-        found.retain(|finding| finding.holds(&samples));
-        findings::told(self, &found)
-    }
 }
 
 /// What a place of a curve of critical speeds shows, where there is one.

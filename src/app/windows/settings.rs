@@ -2,7 +2,7 @@
 
 use eframe::egui::{ComboBox, Grid, Ui};
 
-use crate::app::state::{FrequencyUnit, MotionChoice, Settings, StressUnit, ThemeChoice};
+use crate::app::settings::{FrequencyUnit, MotionChoice, Settings, StressUnit, ThemeChoice};
 
 /// Draws them; what is chosen counts at once.
 pub fn ui(ui: &mut Ui, settings: &mut Settings) {

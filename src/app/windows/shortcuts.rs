@@ -2,12 +2,12 @@
 
 use eframe::egui::{Grid, RichText, Ui};
 
-use crate::app::menu;
+use crate::app::shortcuts;
 
 /// Draws the list.
 pub fn ui(ui: &mut Ui) {
     Grid::new("shortcuts").num_columns(2).striped(true).spacing([16.0, 6.0]).show(ui, |ui| {
-        for (keys, meaning) in menu::shortcuts(ui.ctx()) {
+        for (keys, meaning) in shortcuts::all(ui.ctx()) {
             ui.label(RichText::new(keys).strong());
             ui.add(eframe::egui::Label::new(meaning).wrap());
             ui.end_row();

@@ -12,17 +12,20 @@ use eframe::egui::{
 pub use picture::Picture;
 
 use super::View;
-use super::handles::roundest;
 use crate::app::command::Command;
+use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
-use crate::app::state::{Camera, MapQuantity, MapView, Settings, UiState};
+use crate::app::round::roundest;
+use crate::app::settings::Settings;
+use crate::app::state::{Camera, MapQuantity, MapView, UiState};
 use crate::app::studies::{Known, Shown, Stage, Studies};
-use crate::app::{Facts, digits, series};
+use crate::app::{digits, series};
 use crate::compute::protocol::{Revision, Topic};
 use crate::robot::Vec2 as WorldVec2;
 use crate::stability::Kind;
 use crate::study::{Answer, Asked, Directions, NoAnswer, Study, Verdict};
 use paint::Texture;
+use picture::{NO_EQUILIBRIUM, NOT_COMPUTED};
 
 /// While answers come in, the picture is made anew this often, in seconds.
 const RENEWAL: f64 = 0.1;
@@ -35,10 +38,6 @@ const QUANTITIES: [(MapQuantity, &str, &str); 5] = [
     (MapQuantity::Cable, "Cable", "The cable with most of the kinetic energy of the vibration that grows first"),
     (MapQuantity::Growth, "Growth rate", "The largest growth rate at today's speed, in 1/s; above 0 it is unstable"),
 ];
-
-/// How the map, its legend and its reading call a point without an equilibrium, and one without an answer.
-const NO_EQUILIBRIUM: &str = "no equilibrium";
-const NOT_COMPUTED: &str = "could not be computed";
 
 /// What the picture was made of.
 type Key = ((Revision, usize), MapQuantity, bool);

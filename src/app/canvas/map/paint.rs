@@ -5,11 +5,11 @@ use eframe::egui::{
     Ui, Vec2, Visuals,
 };
 
-use super::picture::{CLASSES, Cell, Picture};
-use super::{NO_EQUILIBRIUM, NOT_COMPUTED};
-use crate::app::Facts;
+use super::picture::{CLASSES, Cell, NO_EQUILIBRIUM, NOT_COMPUTED, Picture};
 use crate::app::canvas::View;
 use crate::app::digits;
+use crate::app::facts::Facts;
+use crate::app::round::round_step;
 use crate::app::state::MapQuantity;
 use crate::app::theme;
 use crate::robot::Vec2 as WorldVec2;
@@ -302,7 +302,7 @@ fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
     if high - low <= 1e-9 * high.abs() {
         return vec![(low, digits::certain(low, None))];
     }
-    let step = super::super::paint::round_step((high - low) / 4.0);
+    let step = round_step((high - low) / 4.0);
     // At most five, and small.
     #[expect(clippy::cast_possible_truncation)]
     let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);

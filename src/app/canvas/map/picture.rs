@@ -13,6 +13,10 @@ pub const CLASSES: usize = 8;
 /// A class with fewer points than this is rare.
 const RARE: usize = 32;
 
+/// How the map, its legend and its reading call a point without an equilibrium, and one without an answer.
+pub const NO_EQUILIBRIUM: &str = "no equilibrium";
+pub const NOT_COMPUTED: &str = "could not be computed";
+
 /// What the map shows at one of its points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell {
@@ -290,7 +294,7 @@ fn neighbours(grid: &Grid, pos_in_world: Vec2) -> [(usize, usize, f64); 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::state::Settings;
+    use crate::app::settings::Settings;
     use crate::app::studies::Wish;
     use crate::scenario::presets;
     use crate::study::{Asked, Directions};

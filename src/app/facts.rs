@@ -1,0 +1,57 @@
+//! The document with all that is known of it, as panels read it.
+
+use crate::app::answers::Answers;
+use crate::app::certainty::Certainty;
+use crate::app::pinned::Pinned;
+use crate::app::settings::Settings;
+use crate::app::state::Document;
+use crate::app::studies::{Joined, Studies};
+
+/// The document and all that is known of it.
+pub struct Present {
+    /// What is edited.
+    pub document: Document,
+    /// What is known of its pose.
+    pub answers: Answers,
+    /// What is known of more than the pose.
+    pub studies: Studies,
+    /// The modes of the Campbell diagram.
+    pub joined: Joined,
+    /// The design to compare with.
+    pub pinned: Option<Pinned>,
+}
+
+impl Present {
+    /// What panels read, in these units.
+    pub fn facts(&self, settings: Settings) -> Facts<'_> {
+        let Self { document, answers, studies, joined, pinned } = self;
+        let certainty = Certainty::known(&document.scenario, answers, studies);
+        Facts { document, answers, studies, joined, pinned: pinned.as_ref(), certainty, settings }
+    }
+}
+
+/// What panels read.
+#[derive(Clone, Copy, Debug)]
+pub struct Facts<'a> {
+    /// What is edited.
+    pub document: &'a Document,
+    /// What is known of the pose.
+    pub answers: &'a Answers,
+    /// What is known of more than the pose.
+    pub studies: &'a Studies,
+    /// The modes of the Campbell diagram.
+    pub joined: &'a Joined,
+    /// The design to compare with.
+    pub pinned: Option<&'a Pinned>,
+    /// How far the critical speed on show can be trusted.
+    pub certainty: Certainty,
+    /// Units.
+    pub settings: Settings,
+}
+
+impl Facts<'_> {
+    /// How far off other critical speeds than the one on show are to be expected, as a part of them.
+    pub fn share(&self) -> Option<f64> {
+        self.certainty.share(self.answers.last_critical()?.critical.as_ref()?)
+    }
+}

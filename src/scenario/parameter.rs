@@ -1,0 +1,135 @@
+//! The numbers of a scenario: what each is called in files and faults, how it is read and set.
+
+use crate::robot::TensionLaw;
+use crate::scenario::Scenario;
+
+/// A number of a scenario that can be changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Parameter {
+    /// E.
+    YoungsModulus,
+    /// A.
+    Area,
+    /// μ.
+    MassPerLength,
+    /// m.
+    PlatformMass,
+    /// g.
+    Gravity,
+    /// α.
+    Alpha,
+    /// β.
+    Beta,
+    /// n.
+    Elements,
+    /// v.
+    Speed,
+    /// x.
+    PositionX,
+    /// y.
+    PositionY,
+    /// The angle of the motion from the x axis, in radians.
+    Direction,
+    /// The winch point of a cable (0-based), x or y.
+    Anchor(usize, usize),
+    /// The constant tension of a cable (0-based).
+    Tension(usize),
+    /// Coefficient 0, 1 or 2 of the horizontal part of a cable's tension law.
+    Horizontal(usize, usize),
+    /// Coefficient 0, 1 or 2 of the vertical part of a cable's tension law.
+    Vertical(usize, usize),
+}
+
+impl Parameter {
+    /// Its value in SI units; 0 for a coefficient that the cable's law does not have.
+    pub fn get(self, scenario: &Scenario) -> f64 {
+        // One way to reach each number, for reading and writing alike.
+        let mut copy = scenario.clone();
+        match self {
+            Self::Elements => return scenario.elements_per_cable as f64,
+            Self::Direction => {
+                let [x, y] = scenario.motion.direction;
+                return y.atan2(x);
+            }
+            _ => {}
+        }
+        self.place(&mut copy).map_or(0.0, |place| *place)
+    }
+
+    /// Makes it the same as in another scenario, to the last bit.
+    pub fn copy(self, from: &Scenario, to: &mut Scenario) {
+        match self {
+            Self::Elements => to.elements_per_cable = from.elements_per_cable,
+            Self::Direction => to.motion.direction = from.motion.direction,
+            _ => self.set(to, self.get(from)),
+        }
+    }
+
+    /// Its path in a scenario file; a direction is one number to people, and two in a file.
+    pub fn path(self) -> String {
+        match self {
+            Self::YoungsModulus => "cable.youngs_modulus".into(),
+            Self::Area => "cable.area".into(),
+            Self::MassPerLength => "cable.mass_per_length".into(),
+            Self::PlatformMass => "platform.mass".into(),
+            Self::Gravity => "gravity".into(),
+            Self::Alpha => "damping.alpha".into(),
+            Self::Beta => "damping.beta".into(),
+            Self::Elements => "elements_per_cable".into(),
+            Self::Speed => "motion.speed".into(),
+            Self::PositionX => "motion.position[0]".into(),
+            Self::PositionY => "motion.position[1]".into(),
+            Self::Direction => "motion.direction".into(),
+            Self::Anchor(cable, i) => format!("cables[{cable}].anchor[{i}]"),
+            Self::Tension(cable) => format!("cables[{cable}].tension.constant"),
+            Self::Horizontal(cable, i) => format!("cables[{cable}].tension.horizontal[{i}]"),
+            Self::Vertical(cable, i) => format!("cables[{cable}].tension.vertical[{i}]"),
+        }
+    }
+
+    /// Whether the scenario has such a number.
+    pub fn is_in(self, scenario: &Scenario) -> bool {
+        matches!(self, Self::Elements | Self::Direction) || self.place(&mut scenario.clone()).is_some()
+    }
+
+    /// Sets it, in SI units.
+    pub fn set(self, scenario: &mut Scenario, value: f64) {
+        if self == Self::Elements {
+            // Saturates; the robot's validation says what is allowed.
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+            let elements = value.round() as usize;
+            scenario.elements_per_cable = elements;
+        } else if self == Self::Direction {
+            // A right angle is meant exactly.
+            let exact = |part: f64| if part.abs() < 1e-15 { 0.0 } else { part };
+            scenario.motion.direction = [exact(value.cos()), exact(value.sin())];
+        } else if let Some(place) = self.place(scenario) {
+            *place = value;
+        }
+    }
+
+    fn place(self, scenario: &mut Scenario) -> Option<&mut f64> {
+        match self {
+            Self::YoungsModulus => Some(&mut scenario.cable.youngs_modulus),
+            Self::Area => Some(&mut scenario.cable.area),
+            Self::MassPerLength => Some(&mut scenario.cable.mass_per_length),
+            Self::PlatformMass => Some(&mut scenario.platform.mass),
+            Self::Gravity => Some(&mut scenario.gravity),
+            Self::Alpha => Some(&mut scenario.damping.alpha),
+            Self::Beta => Some(&mut scenario.damping.beta),
+            Self::Speed => Some(&mut scenario.motion.speed),
+            Self::PositionX => Some(&mut scenario.motion.position[0]),
+            Self::PositionY => Some(&mut scenario.motion.position[1]),
+            Self::Anchor(cable, i) => scenario.cables.get_mut(cable)?.anchor.get_mut(i),
+            Self::Elements | Self::Direction => None,
+            Self::Tension(cable) | Self::Horizontal(cable, _) | Self::Vertical(cable, _) => {
+                match (self, &mut scenario.cables.get_mut(cable)?.tension) {
+                    (Self::Tension(_), TensionLaw::Constant(tension)) => Some(tension),
+                    (Self::Horizontal(_, i), TensionLaw::Hypot { horizontal, .. }) => horizontal.get_mut(i),
+                    (Self::Vertical(_, i), TensionLaw::Hypot { vertical, .. }) => vertical.get_mut(i),
+                    _ => None,
+                }
+            }
+        }
+    }
+}
