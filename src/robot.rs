@@ -1,8 +1,12 @@
 //! The robot and its motion, validated: if a [`Robot`] exists, it is physical.
 
+mod bounding_box;
+
 use std::fmt;
 
 use nalgebra::Vector2;
+
+pub use bounding_box::BoundingBox;
 
 /// A point or a vector in the robot's plane, in metres or newtons: x to the right, y up.
 pub type Vec2 = Vector2<f64>;

@@ -2,7 +2,7 @@
 
 use crate::app::number::{self, Unit};
 use crate::app::settings::{Settings, StressUnit};
-use crate::robot::{Allowed, ELEMENTS, Fault};
+use crate::robot::{Allowed, BoundingBox, ELEMENTS, Fault, Vec2};
 use crate::scenario::{Parameter, Scenario};
 
 /// A number of the scenario with its control.
@@ -53,134 +53,140 @@ impl Field {
     }
 }
 
-const fn field(name: &'static str, symbol: &'static str, unit: &'static str, parameter: Parameter) -> Field {
-    Field { name, symbol, unit, range: [0.0, 1.0], logarithmic: false, integer: false, meaning: "", parameter }
-}
-
-/// The speed of the platform.
-pub const SPEED: Field = Field {
-    range: [0.0, 40.0],
-    meaning: "The platform's speed v along its direction of motion. The eigenvalues on show are those at this speed; the \
-              critical speed does not depend on it.",
-    ..field("Speed", "v", "m/s", Parameter::Speed)
-};
-
-/// The angle of the motion.
-pub const DIRECTION: Field = Field {
-    range: [-180.0, 180.0],
-    meaning: "The direction of the motion: 0° to the right, 90° upward. Drag the arrow's tip on the canvas for the same.",
-    ..field("Direction", "θ", "°", Parameter::Direction)
-};
-
-/// Where the platform is, within `frame`: [left, bottom, right, top] in m.
-pub fn position([left, bottom, right, top]: [f64; 4]) -> [Field; 2] {
-    let meaning = "The platform's position: x to the right, y up. Drag the platform on the canvas for the same.";
-    let field = |name, symbol, parameter, range| Field { range, meaning, ..field(name, symbol, "m", parameter) };
-    [
-        field("Position", "x", Parameter::PositionX, [left, right]),
-        field("Position", "y", Parameter::PositionY, [bottom, top]),
-    ]
-}
-
-/// Cables and platform.
-pub const BODY: [Field; 5] = [
-    Field {
-        range: [1.0, 300_000.0],
-        logarithmic: true,
-        meaning: "Young's modulus of the cables. With A it makes the axial stiffness EA of N(λ).",
-        ..field("Young's modulus", "E", "MPa", Parameter::YoungsModulus)
-    },
-    Field {
-        range: [0.001, 10.0],
-        logarithmic: true,
-        meaning: "Cross-section of the cables.",
-        ..field("Cross-section", "A", "cm²", Parameter::Area)
-    },
-    Field {
-        range: [0.001, 10.0],
-        logarithmic: true,
-        meaning: "Mass of the cables per unstretched length. The wave speed of a cable is √(T/μ).",
-        ..field("Cable mass", "μ", "kg/m", Parameter::MassPerLength)
-    },
-    Field {
-        range: [0.01, 1000.0],
-        logarithmic: true,
-        meaning: "Mass of the platform, a point mass.",
-        ..field("Platform mass", "m", "kg", Parameter::PlatformMass)
-    },
-    Field {
-        range: [0.0, 20.0],
-        meaning: "Gravitational acceleration. At 0 the cables are straight.",
-        ..field("Gravity", "g", "m/s²", Parameter::Gravity)
-    },
-];
-
+/// The numbers of the motion.
+pub const MOTION: [Parameter; 4] =
+    [Parameter::Speed, Parameter::Direction, Parameter::Position(0), Parameter::Position(1)];
+/// Those of cables and platform.
+pub const BODY: [Parameter; 5] =
+    [Parameter::YoungsModulus, Parameter::Area, Parameter::MassPerLength, Parameter::PlatformMass, Parameter::Gravity];
 /// Damping and mesh.
-pub const MODEL: [Field; 3] = [
-    Field {
-        range: [0.0, 5.0],
-        meaning: "Damping in proportion to mass: the α of αM + βK. It works against reeling-in, which feeds \
-                  every frequency alike.",
-        ..field("Mass damping", "α", "1/s", Parameter::Alpha)
-    },
-    Field {
-        range: [0.0, 0.1],
-        logarithmic: true,
-        meaning: "Damping in proportion to elastic stiffness: the β of αM + βK. It calms high frequencies most.",
-        ..field("Stiffness damping", "β", "s", Parameter::Beta)
-    },
-    Field {
-        range: [2.0, 40.0],
-        integer: true,
-        meaning: "Finite elements per cable. The error falls as 1/n² where a vibration grows, as 1/n for a divergence; the \
-                  work grows faster than n. Mesh, among the plots, tells how large it is.",
-        ..field("Elements per cable", "n", "", Parameter::Elements)
-    },
-];
+pub const MODEL: [Parameter; 3] = [Parameter::Alpha, Parameter::Beta, Parameter::Elements];
 
-/// Where a cable's winch is, about `frame`: [left, bottom, right, top] in m.
-pub fn anchor(cable: usize, [left, bottom, right, top]: [f64; 4]) -> [Field; 2] {
-    let meaning = "Where the winch is: x to the right, y up. Once unlocked it can be dragged on the canvas.";
-    let field = |name, i, low: f64, high: f64| {
-        let more = 0.2 * (high - low);
-        Field { range: [low - more, high + more], meaning, ..field(name, name, "m", Parameter::Anchor(cable, i)) }
-    };
-    [field("x", 0, left, right), field("y", 1, bottom, top)]
+/// The six coefficients of a cable's tension law.
+pub fn law(cable: usize) -> [Parameter; 6] {
+    let [h0, hx, hy] = [0, 1, 2].map(|i| Parameter::Horizontal(cable, i));
+    let [v0, vx, vy] = [0, 1, 2].map(|i| Parameter::Vertical(cable, i));
+    [h0, hx, hy, v0, vx, vy]
 }
 
-/// The constant tension of a cable.
-pub fn tension(cable: usize) -> Field {
-    Field {
-        range: [1.0, 10_000.0],
-        logarithmic: true,
-        meaning: "The tension that the winch holds at the platform's end of this cable.",
-        ..field("Tension", "T", "N", Parameter::Tension(cable))
+/// What the coefficients of a tension law mean.
+pub const LAW: &str = "A coefficient of the tension at the platform, T = hypot(h0 + hx x + hy y, v0 + vx x + vy y).";
+const POSITION: &str = "The platform's position: x to the right, y up. Drag the platform on the canvas for the same.";
+const WINCH: &str = "Where the winch is: x to the right, y up. Once unlocked it can be dragged on the canvas.";
+
+impl Field {
+    /// The field of a number; the sliders of places follow `frame`, the box that the winches span.
+    pub fn of(parameter: Parameter, frame: BoundingBox) -> Self {
+        let (low, high) = (frame.low, frame.high);
+        let named = |name, symbol, unit, range, meaning| Self {
+            name,
+            symbol,
+            unit,
+            range,
+            logarithmic: false,
+            integer: false,
+            meaning,
+            parameter,
+        };
+        let winch = |name, i: usize| {
+            let more = 0.2 * (high[i] - low[i]);
+            named(name, name, "m", [low[i] - more, high[i] + more], WINCH)
+        };
+        let logarithmic = |field: Self| Self { logarithmic: true, ..field };
+        match parameter {
+            Parameter::Speed => named(
+                "Speed",
+                "v",
+                "m/s",
+                [0.0, 40.0],
+                "The platform's speed v along its direction of motion. The eigenvalues on show are those at this speed; \
+                 the critical speed does not depend on it.",
+            ),
+            // The components of a direction are one number to people.
+            Parameter::Direction | Parameter::DirectionComponent(_) => named(
+                "Direction",
+                "θ",
+                "°",
+                [-180.0, 180.0],
+                "The direction of the motion: 0° to the right, 90° upward. Drag the arrow's tip on the canvas for the \
+                 same.",
+            ),
+            Parameter::Position(0) => named("Position", "x", "m", [low.x, high.x], POSITION),
+            Parameter::Position(_) => named("Position", "y", "m", [low.y, high.y], POSITION),
+            Parameter::YoungsModulus => logarithmic(named(
+                "Young's modulus",
+                "E",
+                "MPa",
+                [1.0, 300_000.0],
+                "Young's modulus of the cables. With A it makes the axial stiffness EA of N(λ).",
+            )),
+            Parameter::Area => {
+                logarithmic(named("Cross-section", "A", "cm²", [0.001, 10.0], "Cross-section of the cables."))
+            }
+            Parameter::MassPerLength => logarithmic(named(
+                "Cable mass",
+                "μ",
+                "kg/m",
+                [0.001, 10.0],
+                "Mass of the cables per unstretched length. The wave speed of a cable is √(T/μ).",
+            )),
+            Parameter::PlatformMass => {
+                logarithmic(named("Platform mass", "m", "kg", [0.01, 1000.0], "Mass of the platform, a point mass."))
+            }
+            Parameter::Gravity => {
+                named("Gravity", "g", "m/s²", [0.0, 20.0], "Gravitational acceleration. At 0 the cables are straight.")
+            }
+            Parameter::Alpha => named(
+                "Mass damping",
+                "α",
+                "1/s",
+                [0.0, 5.0],
+                "Damping in proportion to mass: the α of αM + βK. It works against reeling-in, which feeds every \
+                 frequency alike.",
+            ),
+            Parameter::Beta => logarithmic(named(
+                "Stiffness damping",
+                "β",
+                "s",
+                [0.0, 0.1],
+                "Damping in proportion to elastic stiffness: the β of αM + βK. It calms high frequencies most.",
+            )),
+            Parameter::Elements => {
+                let meaning = "Finite elements per cable. The error falls as 1/n² where a vibration grows, as 1/n for a \
+                               divergence; the work grows faster than n. Mesh, among the plots, tells how large it is.";
+                Self { integer: true, ..named("Elements per cable", "n", "", [2.0, 40.0], meaning) }
+            }
+            Parameter::Anchor(_, 0) => winch("x", 0),
+            Parameter::Anchor(..) => winch("y", 1),
+            Parameter::Tension(_) => logarithmic(named(
+                "Tension",
+                "T",
+                "N",
+                [1.0, 10_000.0],
+                "The tension that the winch holds at the platform's end of this cable.",
+            )),
+            Parameter::Horizontal(_, i) | Parameter::Vertical(_, i) => {
+                let names = match parameter {
+                    Parameter::Horizontal(..) => ["h0", "hx", "hy"],
+                    _ => ["v0", "vx", "vy"],
+                };
+                let name = names[i.min(2)];
+                let (unit, end) = if i == 0 { ("N", 500.0) } else { ("N/m", 50.0) };
+                named(name, name, unit, [-end, end], LAW)
+            }
+        }
     }
 }
 
-/// The six coefficients of a cable's tension law.
-pub fn law(cable: usize) -> [Field; 6] {
-    let meaning = "A coefficient of the tension at the platform, T = hypot(h0 + hx x + hy y, v0 + vx x + vy y).";
-    let constant = |name, parameter| Field { range: [-500.0, 500.0], meaning, ..field(name, name, "N", parameter) };
-    let slope = |name, parameter| Field { range: [-50.0, 50.0], meaning, ..field(name, name, "N/m", parameter) };
-    [
-        constant("h0", Parameter::Horizontal(cable, 0)),
-        slope("hx", Parameter::Horizontal(cable, 1)),
-        slope("hy", Parameter::Horizontal(cable, 2)),
-        constant("v0", Parameter::Vertical(cable, 0)),
-        slope("vx", Parameter::Vertical(cable, 1)),
-        slope("vy", Parameter::Vertical(cable, 2)),
-    ]
-}
-
-/// The fields of all numbers of a scenario.
-fn all(scenario: &Scenario) -> impl Iterator<Item = Field> {
-    let cables = (0..scenario.cables.len()).flat_map(|cable| {
-        let law = law(cable).into_iter().chain([tension(cable)]);
-        law.chain(anchor(cable, [0.0; 4]))
-    });
-    let fixed = [SPEED, DIRECTION].into_iter().chain(position([0.0; 4])).chain(BODY).chain(MODEL);
-    fixed.chain(cables).filter(|field| field.parameter.is_in(scenario))
+/// The field of the number at a path of the scenario file, for what is said of it.
+fn at_path(path: &str, scenario: &Scenario) -> Option<Field> {
+    // A direction is one number to people, and two in a file: the angle comes before its components.
+    let all = [Parameter::Direction].into_iter().chain(Parameter::all(scenario));
+    let has = |parameter: &Parameter| {
+        path.strip_prefix(&parameter.path()).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
+    };
+    let nowhere = BoundingBox { low: Vec2::zeros(), high: Vec2::zeros() };
+    all.into_iter().find(has).map(|parameter| Field::of(parameter, nowhere))
 }
 
 /// Puts another value, as it is stored, in the place of a number.
@@ -208,11 +214,7 @@ pub fn check(scenario: &Scenario, settings: Settings) -> Result<(), String> {
 
 /// What is wrong, in the words and the unit of the field that it belongs to.
 fn in_words(fault: &Fault, scenario: &Scenario, settings: Settings) -> String {
-    let is_of = |path: &str, field: &Field| {
-        // A direction is one number to people, and two in a file.
-        path.strip_prefix(&field.parameter.path()).is_some_and(|rest| rest.is_empty() || rest.starts_with('['))
-    };
-    let of = |path: &str| all(scenario).find(|field| is_of(path, field)).map(|field| field.in_units_of(settings));
+    let of = |path: &str| at_path(path, scenario).map(|field| field.in_units_of(settings));
     if let Allowed::OtherThanAnchor(other) = fault.allowed {
         let cables = 0..scenario.cables.len();
         let cable = cables.into_iter().find(|cable| fault.path == format!("cables[{cable}].anchor"));
@@ -248,10 +250,14 @@ mod tests {
     use super::*;
     use crate::scenario::presets;
 
+    fn field(parameter: Parameter) -> Field {
+        Field::of(parameter, BoundingBox { low: Vec2::zeros(), high: Vec2::zeros() })
+    }
+
     #[test]
     fn every_field_has_its_unit_and_every_fault_finds_its_field() {
         for scenario in presets::PRESETS.iter().map(presets::Preset::scenario) {
-            for field in all(&scenario) {
+            for field in Parameter::all(&scenario).into_iter().chain([Parameter::Direction]).map(field) {
                 let kind = field.unit().dimension.kind();
                 assert_eq!(kind == "a plain number", field.unit.is_empty(), "{}: {kind}", field.name);
                 // The same number, and no other one, is found by the path of its fault.
@@ -272,23 +278,23 @@ mod tests {
     fn what_is_not_allowed_is_said_in_the_words_and_the_unit_of_the_field() {
         let scenario = presets::PRESETS[0].scenario();
         let mut settings = Settings::default();
-        let refused = |field: &Field, value: f64, settings: Settings| {
-            edited(&scenario, field, value, settings).expect_err("refused")
+        let refused = |parameter: Parameter, value: f64, settings: Settings| {
+            edited(&scenario, &field(parameter), value, settings).expect_err("refused")
         };
-        assert_eq!(refused(&BODY[0], -5e6, settings), "E must be more than 0 MPa, not -5 MPa");
+        assert_eq!(refused(Parameter::YoungsModulus, -5e6, settings), "E must be more than 0 MPa, not -5 MPa");
         let beyond = "The product of E and A is too large or too small a number";
         assert_eq!(
-            (refused(&BODY[0], 1e-320, settings), refused(&BODY[0], 1e-310, settings)),
+            (refused(Parameter::YoungsModulus, 1e-320, settings), refused(Parameter::YoungsModulus, 1e-310, settings)),
             (beyond.into(), beyond.into())
         );
         settings.stress = StressUnit::Gigapascal;
-        assert_eq!(refused(&BODY[0], 0.0, settings), "E must be more than 0 GPa, not 0 GPa");
-        assert_eq!(refused(&BODY[1], 0.0, settings), "A must be more than 0 cm², not 0 cm²");
+        assert_eq!(refused(Parameter::YoungsModulus, 0.0, settings), "E must be more than 0 GPa, not 0 GPa");
+        assert_eq!(refused(Parameter::Area, 0.0, settings), "A must be more than 0 cm², not 0 cm²");
         assert_eq!(
-            refused(&SPEED, -1.0, settings),
+            refused(Parameter::Speed, -1.0, settings),
             "v must be 0 m/s or more, not -1 m/s: turn the direction round to go back"
         );
-        assert_eq!(refused(&MODEL[2], 2.5, settings), "n must be a whole number from 2 to 200, not 2.5");
-        assert_eq!(refused(&MODEL[2], 1e9, settings), "n must be a whole number from 2 to 200, not 1e9");
+        assert_eq!(refused(Parameter::Elements, 2.5, settings), "n must be a whole number from 2 to 200, not 2.5");
+        assert_eq!(refused(Parameter::Elements, 1e9, settings), "n must be a whole number from 2 to 200, not 1e9");
     }
 }

@@ -12,7 +12,7 @@ use crate::cli::rows::{COLUMNS, Form, Options, Row, Rows, exact};
 use crate::cli::text::digits;
 use crate::cli::{Answer, Output, read_scenario};
 use crate::robot::{Faults, Vec2};
-use crate::scenario::Scenario;
+use crate::scenario::{Parameter, Scenario};
 use crate::study::{Verdict, evenly, verdict};
 
 /// A sweep has at most so many rows.
@@ -123,25 +123,6 @@ fn pointer(path: &str) -> String {
     pointer
 }
 
-/// The paths of all numbers in `value`, as faults call them.
-fn numbers(value: &Value, path: &str, found: &mut Vec<String>) {
-    match value {
-        Value::Number(_) => found.push(path.into()),
-        Value::Array(items) => {
-            for (i, item) in items.iter().enumerate() {
-                numbers(item, &format!("{path}[{i}]"), found);
-            }
-        }
-        Value::Object(fields) => {
-            for (name, field) in fields {
-                let dot = if path.is_empty() { "" } else { "." };
-                numbers(field, &format!("{path}{dot}{name}"), found);
-            }
-        }
-        Value::Null | Value::Bool(_) | Value::String(_) => {}
-    }
-}
-
 /// All combinations of the values of some of a scenario's numbers.
 #[derive(Debug)]
 struct Sweep {
@@ -154,8 +135,8 @@ struct Sweep {
 impl Sweep {
     fn new(scenario: &Scenario, sets: &[String]) -> Result<Self, Vec<String>> {
         let file = serde_json::to_value(scenario).map_err(|error| vec![error.to_string()])?;
-        let mut paths = Vec::new();
-        numbers(&file, "", &mut paths);
+        let mut paths: Vec<String> = Parameter::all(scenario).into_iter().map(Parameter::path).collect();
+        paths.sort();
         let (mut axes, mut faults) = (Vec::<Axis>::new(), Vec::new());
         for set in sets {
             match Axis::new(set) {

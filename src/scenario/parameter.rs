@@ -24,11 +24,11 @@ pub enum Parameter {
     Elements,
     /// v.
     Speed,
-    /// x.
-    PositionX,
-    /// y.
-    PositionY,
-    /// The angle of the motion from the x axis, in radians.
+    /// The platform's position, x or y.
+    Position(usize),
+    /// A component of the motion's direction, along x or y.
+    DirectionComponent(usize),
+    /// The angle of the motion from the x axis, in radians: what people turn in the place of two components.
     Direction,
     /// The winch point of a cable (0-based), x or y.
     Anchor(usize, usize),
@@ -41,6 +41,23 @@ pub enum Parameter {
 }
 
 impl Parameter {
+    /// All numbers that a scenario file has, in the order of the file. Faults, sweeps and controls name them by their
+    /// [`path`](Self::path).
+    pub fn all(scenario: &Scenario) -> Vec<Self> {
+        let of_cable = |cable| {
+            let law = [Self::Tension(cable)].into_iter();
+            let law = law.chain((0..3).map(move |i| Self::Horizontal(cable, i)));
+            let law = law.chain((0..3).map(move |i| Self::Vertical(cable, i)));
+            [Self::Anchor(cable, 0), Self::Anchor(cable, 1)].into_iter().chain(law)
+        };
+        let before = [Self::Gravity, Self::YoungsModulus, Self::Area, Self::MassPerLength, Self::PlatformMass];
+        let model = [Self::Elements, Self::Alpha, Self::Beta];
+        let motion = [0, 1].map(Self::Position).into_iter().chain([0, 1].map(Self::DirectionComponent));
+        let all = before.into_iter().chain((0..scenario.cables.len()).flat_map(of_cable));
+        let all = all.chain(model).chain(motion).chain([Self::Speed]);
+        all.filter(|parameter| parameter.is_in(scenario)).collect()
+    }
+
     /// Its value in SI units; 0 for a coefficient that the cable's law does not have.
     pub fn get(self, scenario: &Scenario) -> f64 {
         // One way to reach each number, for reading and writing alike.
@@ -77,8 +94,8 @@ impl Parameter {
             Self::Beta => "damping.beta".into(),
             Self::Elements => "elements_per_cable".into(),
             Self::Speed => "motion.speed".into(),
-            Self::PositionX => "motion.position[0]".into(),
-            Self::PositionY => "motion.position[1]".into(),
+            Self::Position(i) => format!("motion.position[{i}]"),
+            Self::DirectionComponent(i) => format!("motion.direction[{i}]"),
             Self::Direction => "motion.direction".into(),
             Self::Anchor(cable, i) => format!("cables[{cable}].anchor[{i}]"),
             Self::Tension(cable) => format!("cables[{cable}].tension.constant"),
@@ -118,8 +135,8 @@ impl Parameter {
             Self::Alpha => Some(&mut scenario.damping.alpha),
             Self::Beta => Some(&mut scenario.damping.beta),
             Self::Speed => Some(&mut scenario.motion.speed),
-            Self::PositionX => Some(&mut scenario.motion.position[0]),
-            Self::PositionY => Some(&mut scenario.motion.position[1]),
+            Self::Position(i) => scenario.motion.position.get_mut(i),
+            Self::DirectionComponent(i) => scenario.motion.direction.get_mut(i),
             Self::Anchor(cable, i) => scenario.cables.get_mut(cable)?.anchor.get_mut(i),
             Self::Elements | Self::Direction => None,
             Self::Tension(cable) | Self::Horizontal(cable, _) | Self::Vertical(cable, _) => {
@@ -130,6 +147,57 @@ impl Parameter {
                     _ => None,
                 }
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::Value;
+
+    use super::*;
+    use crate::scenario::presets;
+
+    /// The numbers of a file with their paths.
+    fn numbers(value: &Value, path: &str, found: &mut Vec<(String, f64)>) {
+        match value {
+            Value::Number(number) => found.push((path.into(), number.as_f64().expect("a number"))),
+            Value::Array(items) => {
+                items.iter().enumerate().for_each(|(i, item)| numbers(item, &format!("{path}[{i}]"), found));
+            }
+            Value::Object(fields) => {
+                let dot = if path.is_empty() { "" } else { "." };
+                fields.iter().for_each(|(name, field)| numbers(field, &format!("{path}{dot}{name}"), found));
+            }
+            Value::Null | Value::Bool(_) | Value::String(_) => {}
+        }
+    }
+
+    #[test]
+    fn every_number_of_a_file_is_a_parameter_with_its_path_and_its_value() {
+        for preset in presets::PRESETS {
+            let scenario = preset.scenario();
+            let mut in_file = Vec::new();
+            numbers(&serde_json::to_value(&scenario).expect("JSON"), "", &mut in_file);
+            let value = |parameter: &Parameter| (parameter.path(), parameter.get(&scenario));
+            let mut listed: Vec<(String, f64)> = Parameter::all(&scenario).iter().map(value).collect();
+            for list in [&mut in_file, &mut listed] {
+                list.sort_by(|a, b| a.0.cmp(&b.0));
+            }
+            assert_eq!(listed, in_file, "{}", preset.name);
+        }
+    }
+
+    #[test]
+    fn what_is_set_is_what_is_read() {
+        let scenario = presets::PRESETS[0].scenario();
+        for parameter in Parameter::all(&scenario).into_iter().chain([Parameter::Direction]) {
+            let mut changed = scenario.clone();
+            let value = if parameter == Parameter::Elements { 7.0 } else { 0.625 };
+            parameter.set(&mut changed, value);
+            assert!((parameter.get(&changed) - value).abs() < 1e-15, "{parameter:?}");
+            parameter.copy(&scenario, &mut changed);
+            assert_eq!(changed, scenario, "{parameter:?}");
         }
     }
 }

@@ -1,9 +1,7 @@
 //! Where studies look: points of the workspace, of a line through it, of an interval; and in which order.
 
-use crate::robot::{Motion, Robot, Vec2};
+use crate::robot::{BoundingBox, Motion, Robot, Vec2};
 
-/// Of the larger side of the workspace, what the other one has at least where all anchors are in a line.
-const LEAST_SIDE: f64 = 0.2;
 /// Every so-many-th point of a row or column comes first.
 const COARSEST: usize = 8;
 
@@ -31,17 +29,9 @@ pub fn evenly(from: f64, to: f64, index: usize, count: usize) -> f64 {
 /// The workspace: the bounding box of all anchors, its lower left and upper right corner in m. Where all anchors are
 /// in a line along an axis, it has some width all the same.
 pub fn workspace(robot: &Robot) -> [Vec2; 2] {
-    let anchors = || robot.cables.iter().map(|cable| cable.anchor);
     let first = robot.cables[0].anchor;
-    let (mut low, mut high) =
-        anchors().fold((first, first), |(low, high), anchor| (low.inf(&anchor), high.sup(&anchor)));
-    let least = LEAST_SIDE * (high - low).amax();
-    for i in 0..2 {
-        if high[i] <= low[i] {
-            low[i] -= 0.5 * least;
-            high[i] += 0.5 * least;
-        }
-    }
+    let around = BoundingBox::of(robot.cables.iter().map(|cable| cable.anchor));
+    let BoundingBox { low, high } = around.unwrap_or(BoundingBox { low: first, high: first }).with_area();
     [low, high]
 }
 

@@ -39,7 +39,7 @@ pub fn ui(
         motion.position = moved(first, view.pos_in_world(grabbed), view);
     }
     if let Some(([x, y], fine)) = keys(ui, &platform) {
-        let step = KEY_STEP * (scene.frame[2] - scene.frame[0]) * fine;
+        let step = KEY_STEP * scene.frame.size().x * fine;
         motion.position = [motion.position[0] + x * step, motion.position[1] + y * step];
     }
     let [x, y] = motion.position;
@@ -101,7 +101,7 @@ pub fn winches(
             cable.anchor = moved(at_first(ui, &winch, cable.anchor), view.pos_in_world(grabbed), view);
         }
         if let Some(([x, y], fine)) = keys(ui, &winch) {
-            let step = KEY_STEP * (scene.frame[2] - scene.frame[0]) * fine;
+            let step = KEY_STEP * scene.frame.size().x * fine;
             cable.anchor = [cable.anchor[0] + x * step, cable.anchor[1] + y * step];
         }
         if !winch.dragged() {

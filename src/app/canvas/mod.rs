@@ -20,14 +20,15 @@ use crate::app::facts::Facts;
 use crate::app::state::{Plot, UiState};
 use crate::app::{digits, series};
 use crate::compute::protocol::Topic;
+use crate::robot::BoundingBox;
 
 /// What the canvas keeps from frame to frame.
 #[derive(Default)]
 pub struct Runtime {
     /// Pictures made of studies.
     layer: map::Layer,
-    /// What was the frame when the pointer was pressed, else what it is: [left, bottom, right, top] in m.
-    frame: Option<[f64; 4]>,
+    /// What was the frame when the pointer was pressed, else what it is.
+    frame: Option<BoundingBox>,
     /// The arrow of the last frame.
     arrow: Option<Arrow>,
     /// Whether its tip was held then.
@@ -55,7 +56,7 @@ pub fn ui(
     let arrow = runtime.arrow.filter(|_| pressed && runtime.holds_tip).unwrap_or_else(|| {
         let room = arrow::room(rect, view.pos_in_ui(scene.platform), View::direction_in_ui(scene.direction));
         let before = runtime.arrow.map(|arrow| arrow.step);
-        Arrow::new(scene.speed, view.scale, room, scene.frame[2] - scene.frame[0], before)
+        Arrow::new(scene.speed, view.scale, room, scene.frame.size().x, before)
     });
     runtime.arrow = Some(arrow);
     let mut painter = ui.painter_at(rect);

@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 use crate::app::answers::Answers;
 use crate::app::state::Playback;
 use crate::compute::protocol::{DrawnShape, ModeShape};
-use crate::robot::TensionLaw;
+use crate::robot::{BoundingBox, TensionLaw};
 use crate::scenario::Scenario;
 
 /// What is to be drawn.
 #[derive(Clone, Debug)]
 pub struct Scene {
-    /// The workspace: [left, bottom, right, top] of the anchors, in m.
-    pub frame: [f64; 4],
+    /// The workspace.
+    pub frame: BoundingBox,
     /// The cables.
     pub cables: Vec<CableLine>,
     /// The platform's position in m.
@@ -46,7 +46,7 @@ impl Scene {
     /// The scene of `scenario` with what is known about it.
     pub fn new(scenario: &Scenario, answers: &Answers, playback: &Playback) -> Self {
         let frame = frame(scenario);
-        let width = frame[2] - frame[0];
+        let width = frame.size().x;
         let critical = answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.cable - 1);
         let marked = answers.failed().map_or(critical, |failed| failed.cable);
         let cables: Vec<CableLine> = scenario
@@ -79,18 +79,10 @@ impl Scene {
     }
 }
 
-/// The workspace: [left, bottom, right, top] of all anchors in m, with some height and width even where they are in a line.
-pub fn frame(scenario: &Scenario) -> [f64; 4] {
-    let coordinates = |i: usize| range(scenario.cables.iter().map(move |cable| cable.anchor[i]));
-    let [left, right] = coordinates(0).unwrap_or([-1.0, 1.0]);
-    let [bottom, top] = coordinates(1).unwrap_or([-1.0, 1.0]);
-    let least = 0.2 * (right - left).max(top - bottom).max(1e-3);
-    let widen = |low: f64, high: f64| {
-        let more = 0.5 * (least - (high - low)).max(0.0);
-        (low - more, high + more)
-    };
-    let ((left, right), (bottom, top)) = (widen(left, right), widen(bottom, top));
-    [left, bottom, right, top]
+/// The workspace: the bounding box of all winches, with some height and width even where they are in a line.
+pub fn frame(scenario: &Scenario) -> BoundingBox {
+    let winches = BoundingBox::of(scenario.cables.iter().map(|cable| cable.anchor.into()));
+    winches.unwrap_or(BoundingBox { low: [-1.0, -1.0].into(), high: [1.0, 1.0].into() }).with_area()
 }
 
 fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
@@ -142,7 +134,8 @@ mod tests {
 
     #[test]
     fn frame_of_the_paper_robot_is_its_workspace() {
-        assert_eq!(frame(&presets::PRESETS[0].scenario()), [-10.0, -5.0, 10.0, 5.0]);
+        let frame = frame(&presets::PRESETS[0].scenario());
+        assert_eq!([frame.low, frame.high].map(<[f64; 2]>::from), [[-10.0, -5.0], [10.0, 5.0]]);
     }
 
     #[test]
@@ -151,9 +144,9 @@ mod tests {
         for (i, cable) in scenario.cables.iter_mut().enumerate() {
             cable.anchor = [i as f64, 2.0];
         }
-        let [left, bottom, right, top] = frame(&scenario);
-        assert_eq!([left, right], [0.0, 3.0]);
-        assert!(top - bottom > 0.5, "{bottom} {top}");
+        let frame = frame(&scenario);
+        assert_eq!([frame.low.x, frame.high.x], [0.0, 3.0]);
+        assert!(frame.size().y > 0.5, "{frame:?}");
     }
 
     #[test]

@@ -78,13 +78,13 @@ fn part(force: f64, tensions: Option<[f64; 2]>) -> f64 {
 
 /// The workspace's frame, its grid lines and their metres.
 fn grid(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
-    let [left, bottom, right, top] = scene.frame;
-    let frame = Rect::from_two_pos(view.pos_in_ui([left, bottom]), view.pos_in_ui([right, top]));
+    let frame = view.rect_in_ui(scene.frame);
     let faint = Stroke::new(0.5, visuals.weak_text_color().gamma_multiply(0.35));
     let step = round_step(80.0 / view.scale);
     let text = visuals.weak_text_color();
     let font = FontId::proportional(11.0);
-    for (low, high, vertical) in [(left, right, true), (bottom, top, false)] {
+    for (i, vertical) in [(0, true), (1, false)] {
+        let (low, high) = (scene.frame.low[i], scene.frame.high[i]);
         #[expect(clippy::cast_possible_truncation)] // A few dozen lines: the step follows the range and the zoom.
         let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
         for line in (first..=last).take(200) {
@@ -120,10 +120,10 @@ fn winch(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, i: us
     let colour = visuals.text_color();
     let fill = if prescribed { colour } else { visuals.extreme_bg_color };
     painter.rect(square, 2.0, fill, Stroke::new(2.0, colour), StrokeKind::Middle);
-    let [left, bottom, right, top] = scene.frame;
-    let outward = scene.cables[i].anchor;
+    let [x, y] = scene.cables[i].anchor;
+    let middle = scene.frame.middle();
     let side = |value: f64, middle: f64| if value < middle { -1.0 } else { 1.0 };
-    let away = Vec2::new(side(outward[0], 0.5 * (left + right)), -side(outward[1], 0.5 * (bottom + top)));
+    let away = Vec2::new(side(x, middle.x), -side(y, middle.y));
     let number = at + away * Vec2::new(16.0, 14.0);
     painter.text(number, Align2::CENTER_CENTER, (i + 1).to_string(), FontId::proportional(14.0), colour);
 }

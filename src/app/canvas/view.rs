@@ -3,6 +3,7 @@
 use eframe::egui::{Pos2, Rect, Vec2};
 
 use crate::app::state::Camera;
+use crate::robot::BoundingBox;
 
 /// Room around the robot, in points.
 const MARGIN: f32 = 44.0;
@@ -21,12 +22,12 @@ impl View {
     /// How an image whose first row is the lowest one is laid on the screen.
     pub const IMAGE: Rect = Rect { min: Pos2::new(0.0, 1.0), max: Pos2::new(1.0, 0.0) };
 
-    /// Shows `frame` ([left, bottom, right, top] in m) in `rect`, magnified and moved by `camera`.
-    pub fn new(rect: Rect, frame: [f64; 4], camera: Camera) -> Self {
-        let [left, bottom, right, top] = frame;
+    /// Shows `frame` in `rect`, magnified and moved by `camera`.
+    pub fn new(rect: Rect, frame: BoundingBox, camera: Camera) -> Self {
         let room = (rect.size() - Vec2::splat(2.0 * MARGIN)).max(Vec2::splat(40.0));
-        let fit = (f64::from(room.x) / (right - left)).min(f64::from(room.y) / (top - bottom));
-        let centre = [0.5 * (left + right) + camera.offset[0], 0.5 * (bottom + top) + camera.offset[1]];
+        let (size, middle) = (frame.size(), frame.middle());
+        let fit = (f64::from(room.x) / size.x).min(f64::from(room.y) / size.y);
+        let centre = [middle.x + camera.offset[0], middle.y + camera.offset[1]];
         Self { rect, scale: fit * camera.zoom, centre }
     }
 
@@ -37,9 +38,9 @@ impl View {
         self.rect.center() + Vec2::new(x as f32, -y as f32)
     }
 
-    /// Where a rectangle of the world, [left, bottom, right, top] in m, is on the screen.
-    pub fn rect_in_ui(&self, [left, bottom, right, top]: [f64; 4]) -> Rect {
-        Rect::from_two_pos(self.pos_in_ui([left, bottom]), self.pos_in_ui([right, top]))
+    /// Where a rectangle of the world is on the screen.
+    pub fn rect_in_ui(&self, BoundingBox { low, high }: BoundingBox) -> Rect {
+        Rect::from_two_pos(self.pos_in_ui(low.into()), self.pos_in_ui(high.into()))
     }
 
     /// Which world point (m, y up) is at a point of the screen (points, y down).
@@ -67,7 +68,8 @@ mod tests {
     #[test]
     fn the_way_back_is_the_way_there_reversed_and_y_points_up() {
         let rect = Rect::from_min_size(Pos2::new(100.0, 50.0), Vec2::new(640.0, 480.0));
-        let view = View::new(rect, [-10.0, -5.0, 10.0, 5.0], Camera { zoom: 1.7, offset: [1.0, -2.0] });
+        let frame = BoundingBox { low: [-10.0, -5.0].into(), high: [10.0, 5.0].into() };
+        let view = View::new(rect, frame, Camera { zoom: 1.7, offset: [1.0, -2.0] });
         for point in [[0.0, 0.0], [3.5, -2.25], [-10.0, 5.0]] {
             let back = view.pos_in_world(view.pos_in_ui(point));
             for i in 0..2 {

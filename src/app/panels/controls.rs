@@ -4,10 +4,9 @@ use eframe::egui::{CollapsingHeader, ComboBox, Grid, Label, RichText, Ui};
 
 use super::robot;
 use super::rows::{Sheet, rows};
-use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::facts::Facts;
-use crate::app::fields::{self, Field};
+use crate::app::fields;
 use crate::app::meaning::Explain as _;
 use crate::app::number;
 use crate::app::state::{Document, UiState};
@@ -19,10 +18,8 @@ pub fn ui(state: &mut UiState, ui: &mut Ui, Facts { document, settings, .. }: Fa
     let edited = document.scenario.clone();
     let mut sheet = Sheet { edited, original: &document.original, wanted: state.wanted, settings };
     examples(ui, document, commands);
-    let [x, y] = fields::position(canvas::frame(&document.scenario));
-    group(ui, "Motion", &mut sheet, &[fields::SPEED, fields::DIRECTION, x, y]);
-    let body = fields::BODY.map(|field| field.in_units_of(settings));
-    group(ui, "Cables and platform", &mut sheet, &body);
+    group(ui, "Motion", &mut sheet, &fields::MOTION);
+    group(ui, "Cables and platform", &mut sheet, &fields::BODY);
     group(ui, "Damping and mesh", &mut sheet, &fields::MODEL);
     choices(ui, &mut sheet.edited);
     tensions(ui, &mut sheet);
@@ -55,7 +52,7 @@ fn examples(ui: &mut Ui, document: &Document, commands: &mut Vec<Command>) {
     }
 }
 
-fn group(ui: &mut Ui, title: &str, sheet: &mut Sheet<'_>, list: &[Field]) {
+fn group(ui: &mut Ui, title: &str, sheet: &mut Sheet<'_>, list: &[Parameter]) {
     ui.add_space(6.0);
     ui.label(RichText::new(title).strong());
     rows(ui, sheet, list);
@@ -104,7 +101,7 @@ fn tensions(ui: &mut Ui, sheet: &mut Sheet<'_>) {
                 if ui.radio(constant, "Constant").clicked() && !constant {
                     sheet.edited.cables[cable].tension = TensionLaw::Constant(tension);
                 }
-                if ui.radio(!constant, "Law").explained(fields::law(0)[0].meaning).clicked() && constant {
+                if ui.radio(!constant, "Law").explained(fields::LAW).clicked() && constant {
                     let vertical = [0.0, 0.0, 0.0];
                     sheet.edited.cables[cable].tension =
                         TensionLaw::Hypot { horizontal: [tension, 0.0, 0.0], vertical };
@@ -112,7 +109,7 @@ fn tensions(ui: &mut Ui, sheet: &mut Sheet<'_>) {
                 ui.weak(format!("{tension:.1} N here"));
             });
             match sheet.edited.cables[cable].tension {
-                TensionLaw::Constant(_) => rows(ui, sheet, &[fields::tension(cable)]),
+                TensionLaw::Constant(_) => rows(ui, sheet, &[Parameter::Tension(cable)]),
                 _ => rows(ui, sheet, &fields::law(cable)),
             }
         });

@@ -6,9 +6,9 @@ use super::rows::{NUMBER, Sheet, rows};
 use crate::app::meaning::Explain as _;
 use crate::app::number::{Control, Unit};
 use crate::app::{canvas, fields};
-use crate::robot::{CABLES, TensionLaw};
-use crate::scenario::Scenario;
+use crate::robot::{BoundingBox, CABLES, TensionLaw};
 use crate::scenario::v1::Cable;
+use crate::scenario::{Parameter, Scenario};
 
 /// Draws the controls.
 pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
@@ -28,8 +28,7 @@ pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
         let mut removed = None;
         for cable in 0..count {
             CollapsingHeader::new(format!("Winch {}", cable + 1)).id_salt(("winch", cable)).show(ui, |ui| {
-                let frame = canvas::frame(&sheet.edited);
-                rows(ui, sheet, &fields::anchor(cable, frame));
+                rows(ui, sheet, &[Parameter::Anchor(cable, 0), Parameter::Anchor(cable, 1)]);
                 let reason = why_it_stays(&sheet.edited, cable);
                 let button = ui.add_enabled(reason.is_none(), Button::new(format!("Remove cable {}", cable + 1)));
                 if button.grey_because(ui, reason.unwrap_or_default()).clicked() {
@@ -51,15 +50,12 @@ pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
 
 /// Width and height of the frame that the winches span; another one moves them all in proportion.
 fn frame(ui: &mut Ui, sheet: &mut Sheet<'_>) {
-    let spans = |scenario: &Scenario, i: usize| {
-        let all = || scenario.cables.iter().map(|cable| cable.anchor[i]);
-        (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max))
-    };
     ui.horizontal_wrapped(|ui| {
         ui.label("Frame").explained("The workspace that the winches span. Another size moves them in proportion.");
         for (i, name) in [(0, "Width"), (1, "Height")] {
-            let (low, high) = spans(&sheet.edited, i);
-            let before = high - low;
+            let winches = sheet.edited.cables.iter().map(|cable| cable.anchor.into());
+            let Some(spanned) = BoundingBox::of(winches) else { continue };
+            let (before, middle) = (spanned.size()[i], spanned.middle()[i]);
             if before <= 0.0 {
                 continue;
             }
@@ -73,7 +69,6 @@ fn frame(ui: &mut Ui, sheet: &mut Sheet<'_>) {
                 continue;
             }
             let mut edited = sheet.edited.clone();
-            let middle = 0.5 * (low + high);
             let scaled = |at: f64| middle + (at - middle) * (size / before);
             edited.cables.iter_mut().for_each(|cable| cable.anchor[i] = scaled(cable.anchor[i]));
             edited.motion.position[i] = scaled(edited.motion.position[i]);
@@ -119,8 +114,9 @@ fn why_it_stays(scenario: &Scenario, cable: usize) -> Option<&'static str> {
 
 /// A further cable: where the frame has most room, with the mean of the tensions prescribed.
 fn another(scenario: &Scenario) -> Cable {
-    let [left, bottom, right, top] = canvas::frame(scenario);
-    let (middle, height) = (0.5 * (left + right), 0.5 * (bottom + top));
+    let frame = canvas::frame(scenario);
+    let [[left, bottom], [middle, height], [right, top]] =
+        [frame.low, frame.middle(), frame.high].map(<[f64; 2]>::from);
     let places = [
         [left, bottom],
         [right, bottom],

@@ -2,6 +2,7 @@
 
 use eframe::egui::{Align, Button, Label, Layout, Sense, Slider, SliderClamping, Ui, Vec2};
 
+use crate::app::canvas;
 use crate::app::fields::{self, Field};
 use crate::app::gestures;
 use crate::app::meaning::Explain as _;
@@ -27,9 +28,10 @@ pub(super) struct Sheet<'a> {
 }
 
 /// A row for each number.
-pub(super) fn rows(ui: &mut Ui, sheet: &mut Sheet<'_>, list: &[Field]) {
-    for field in list {
-        ui.push_id(format!("{:?}", field.parameter), |ui| row(ui, sheet, field));
+pub(super) fn rows(ui: &mut Ui, sheet: &mut Sheet<'_>, list: &[Parameter]) {
+    for &parameter in list {
+        let field = Field::of(parameter, canvas::frame(&sheet.edited)).in_units_of(sheet.settings);
+        ui.push_id(format!("{parameter:?}"), |ui| row(ui, sheet, &field));
     }
 }
 

@@ -12,7 +12,7 @@ use crate::app::facts::Facts;
 use crate::app::round::round_step;
 use crate::app::state::MapQuantity;
 use crate::app::theme;
-use crate::robot::Vec2 as WorldVec2;
+use crate::robot::{BoundingBox, Vec2 as WorldVec2};
 use crate::study::evenly;
 
 /// Dots of the image from one of the map's points to the next.
@@ -51,9 +51,9 @@ impl Texture {
     /// Draws it; an old one is faint.
     pub fn paint(&self, painter: &Painter, view: &View, picture: &Picture, current: bool) {
         let Some(texture) = &self.0 else { return };
-        let (low, high) = (picture.grid.low, picture.grid.high);
+        let area = BoundingBox { low: picture.grid.low, high: picture.grid.high };
         let tint = if current { Color32::WHITE } else { Color32::WHITE.gamma_multiply(0.45) };
-        painter.image(texture.id(), view.rect_in_ui([low.x, low.y, high.x, high.y]), View::IMAGE, tint);
+        painter.image(texture.id(), view.rect_in_ui(area), View::IMAGE, tint);
     }
 }
 
@@ -98,8 +98,7 @@ pub fn patterns(painter: &Painter, visuals: &Visuals, view: &View, picture: &Pic
     // Dots, so that not even a large area looks like one without equilibrium, and a letter in each.
     for area in picture.areas(Cell::Failed) {
         dots(painter, visuals, origin, view.rect_in_ui(area));
-        let [left, bottom, right, top] = area;
-        text([0.5 * (left + right), 0.5 * (bottom + top)], "?");
+        text(area.middle().into(), "?");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::app::state::MapQuantity;
 use crate::app::studies::Known;
-use crate::robot::Vec2;
+use crate::robot::{BoundingBox, Vec2};
 use crate::stability::{Critical, Kind};
 use crate::study::{Answer, Grid, NoAnswer, Study, Verdict};
 
@@ -161,8 +161,8 @@ impl Picture {
         Cell::Value(if weights > 0.0 { sum / weights } else { own })
     }
 
-    /// Rectangles, [left, bottom, right, top] in m, that cover what lies nearest to points showing `wanted`.
-    pub fn areas(&self, wanted: Cell) -> Vec<[f64; 4]> {
+    /// Rectangles that cover what lies nearest to points showing `wanted`.
+    pub fn areas(&self, wanted: Cell) -> Vec<BoundingBox> {
         let Grid { nx, ny, .. } = self.grid;
         let mut areas = Vec::new();
         for row in 0..ny {
@@ -170,9 +170,8 @@ impl Picture {
             while column < nx {
                 let run = (column..nx).take_while(|&at| self.cells[row * nx + at] == wanted).count();
                 if run > 0 {
-                    let [left, bottom, ..] = self.area(column, row);
-                    let [_, _, right, top] = self.area(column + run - 1, row);
-                    areas.push([left, bottom, right, top]);
+                    let (first, last) = (self.area(column, row), self.area(column + run - 1, row));
+                    areas.push(BoundingBox { low: first.low, high: last.high });
                 }
                 column += run + 1;
             }
@@ -181,11 +180,10 @@ impl Picture {
     }
 
     /// What lies nearest to a point.
-    fn area(&self, column: usize, row: usize) -> [f64; 4] {
+    fn area(&self, column: usize, row: usize) -> BoundingBox {
         let here = self.grid.position(row * self.grid.nx + column);
         let half = 0.5 * step(&self.grid);
-        let (low, high) = ((here - half).sup(&self.grid.low), (here + half).inf(&self.grid.high));
-        [low.x, low.y, high.x, high.y]
+        BoundingBox { low: (here - half).sup(&self.grid.low), high: (here + half).inf(&self.grid.high) }
     }
 
     /// Points that are labelled, each with what it shows: classes and growth above zero. Only some, so that the picture
@@ -421,7 +419,9 @@ mod tests {
         let picture = Picture::new(&half, MapQuantity::Speed).expect("a map");
         let areas = picture.areas(Cell::Infeasible);
         assert_eq!(areas.len(), 21);
-        assert_eq!([areas[0], areas[20]], [[-10.0, -5.0, -0.25, -4.75], [-10.0, 4.75, -0.25, 5.0]]);
+        let corners = |area: BoundingBox| [area.low, area.high].map(<[f64; 2]>::from);
+        assert_eq!(corners(areas[0]), [[-10.0, -5.0], [-0.25, -4.75]]);
+        assert_eq!(corners(areas[20]), [[-10.0, 4.75], [-0.25, 5.0]]);
         assert_eq!(picture.at(Vec2::new(-0.3, 0.0)), Cell::Infeasible);
         assert_eq!(picture.at(Vec2::new(-0.2, 0.0)), Cell::Value(7.0));
     }
