@@ -4,8 +4,8 @@ use eframe::egui::{
     CursorIcon, EventFilter, InputState, Key, Painter, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo,
 };
 
-use super::paint::arrow_tip;
-use super::{Arrow, Scene, View};
+use super::layout::Layout;
+use super::{Scene, View};
 use crate::app::command::Command;
 use crate::app::meaning::Explain as _;
 use crate::app::round::roundest;
@@ -25,16 +25,16 @@ const TURN_STEP: f64 = 0.1;
 pub fn ui(
     ui: &mut Ui,
     painter: &Painter,
-    view: &View,
+    layout: &Layout,
     scene: &Scene,
-    arrow: Arrow,
     document: &Document,
     commands: &mut Vec<Command>,
 ) -> bool {
-    let platform = handle(ui, painter, "Platform", view.pos_in_ui(scene.platform), CursorIcon::Grab);
+    let Layout { view, arrow, .. } = layout;
+    let platform = handle(ui, painter, "Platform", layout.platform, CursorIcon::Grab);
     let mut scenario = document.scenario.clone();
     let motion = &mut scenario.motion;
-    if let Some(grabbed) = drag(ui, &platform, view.pos_in_ui(scene.platform)) {
+    if let Some(grabbed) = drag(ui, &platform, layout.platform) {
         let first = at_first(ui, &platform, motion.position);
         motion.position = moved(first, view.pos_in_world(grabbed), view);
     }
@@ -48,11 +48,10 @@ pub fn ui(
         platform.explained(text);
     }
 
-    let at = arrow_tip(view, scene, arrow);
-    let tip = handle(ui, painter, "Velocity", at, CursorIcon::Grab);
-    if let Some(grabbed) = drag(ui, &tip, at) {
+    let tip = handle(ui, painter, "Velocity", layout.tip, CursorIcon::Grab);
+    if let Some(grabbed) = drag(ui, &tip, layout.tip) {
         let first = at_first(ui, &tip, (motion.speed, motion.direction));
-        let from_platform = grabbed - view.pos_in_ui(scene.platform);
+        let from_platform = grabbed - layout.platform;
         let [speed, point] = arrow.speed(from_platform.length(), view.scale);
         motion.speed = meant(first.0, speed, point).max(0.0);
         if from_platform.length() > 1.0 {
@@ -88,17 +87,16 @@ pub fn ui(
 pub fn winches(
     ui: &mut Ui,
     painter: &Painter,
-    view: &View,
+    layout: &Layout,
     scene: &Scene,
     document: &Document,
     commands: &mut Vec<Command>,
 ) {
     let mut scenario = document.scenario.clone();
-    for (i, cable) in scenario.cables.iter_mut().enumerate() {
-        let centre = view.pos_in_ui(cable.anchor);
+    for (i, (cable, &centre)) in scenario.cables.iter_mut().zip(&layout.winches).enumerate() {
         let winch = handle(ui, painter, &format!("Winch {}", i + 1), centre, CursorIcon::Grab);
         if let Some(grabbed) = drag(ui, &winch, centre) {
-            cable.anchor = moved(at_first(ui, &winch, cable.anchor), view.pos_in_world(grabbed), view);
+            cable.anchor = moved(at_first(ui, &winch, cable.anchor), layout.view.pos_in_world(grabbed), &layout.view);
         }
         if let Some(([x, y], fine)) = keys(ui, &winch) {
             let step = KEY_STEP * scene.frame.size().x * fine;

@@ -1,8 +1,9 @@
-//! The robot, drawn and dragged: model (what there is), view (where it is on the screen), paint, handles, and the map
-//! under it.
+//! The robot, drawn and dragged: model (what there is), layout (where it is on the screen), paint,
+//! handles, and the map under it.
 
 mod arrow;
 mod handles;
+mod layout;
 pub mod map;
 mod model;
 mod paint;
@@ -11,6 +12,7 @@ mod view;
 use eframe::egui::{self, Rect, Sense, Ui};
 
 use arrow::Arrow;
+use layout::Layout;
 pub use map::named;
 pub use model::{Scene, frame, phase_advance};
 pub use view::View;
@@ -51,40 +53,37 @@ pub fn ui(
     let pressed = ui.input(|input| input.pointer.any_down());
     let frame = runtime.frame.filter(|_| pressed).unwrap_or(scene.frame);
     runtime.frame = Some(frame);
-    let view = View::new(rect, frame, state.camera);
-    // While its tip is held the arrow's scale stays, or the speed would jump.
-    let arrow = runtime.arrow.filter(|_| pressed && runtime.holds_tip).unwrap_or_else(|| {
-        let room = arrow::room(rect, view.pos_in_ui(scene.platform), View::direction_in_ui(scene.direction));
-        let before = runtime.arrow.map(|arrow| arrow.step);
-        Arrow::new(scene.speed, view.scale, room, scene.frame.size().x, before)
-    });
-    runtime.arrow = Some(arrow);
+    let held = runtime.arrow.filter(|_| pressed && runtime.holds_tip);
+    let before = runtime.arrow.map(|arrow| arrow.step);
+    let layout = Layout::new(rect, frame, state.camera, &scene, held, before);
+    let view = &layout.view;
+    runtime.arrow = Some(layout.arrow);
     let mut painter = ui.painter_at(rect);
     painter.set_clip_rect(rect.intersect(ui.clip_rect()));
-    paint::background(&painter, ui.visuals(), &view);
+    paint::background(&painter, ui.visuals(), view);
     runtime.layer.update(ui, studies, state.map);
-    runtime.layer.paint(&painter, ui, &view);
-    paint::scene(&painter, ui.visuals(), &view, &scene, arrow, state.map.on);
+    runtime.layer.paint(&painter, ui, view);
+    paint::scene(&painter, ui.visuals(), &layout, &scene, state.map.on);
     // The marker belongs to the diagram beside it, and to one pose.
     let polar = studies.shown(Topic::Polar).filter(|shown| shown.current && state.plot == Plot::Directions);
     if let Some((direction, speed)) = polar.and_then(|shown| series::worst_direction(shown.known)) {
-        paint::worst(&painter, ui.visuals(), &view, &scene, direction, &digits::like(speed, facts.share()));
+        paint::worst(&painter, ui.visuals(), &layout, direction, &digits::like(speed, facts.share()));
     }
     if state.map.on {
-        map::point(ui, &painter, &background, &view, facts, commands);
+        map::point(ui, &painter, &background, view, facts, commands);
     }
-    runtime.holds_tip = handles::ui(ui, &painter, &view, &scene, arrow, document, commands);
+    runtime.holds_tip = handles::ui(ui, &painter, &layout, &scene, document, commands);
     if state.unlocked {
-        handles::winches(ui, &painter, &view, &scene, document, commands);
+        handles::winches(ui, &painter, &layout, &scene, document, commands);
     }
-    handles::camera(ui, &background, &view, &mut state.camera, !state.map.on);
+    handles::camera(ui, &background, view, &mut state.camera, !state.map.on);
     if state.map.on {
         runtime.layer.legend(&painter, ui, rect, facts);
     } else {
         paint::legend(&painter, ui.visuals(), rect, &scene);
     }
     let legend = !state.map.on && scene.tensions.is_some();
-    paint::arrow_legend(&painter, ui.visuals(), rect, arrow, legend);
+    paint::arrow_legend(&painter, ui.visuals(), rect, layout.arrow, legend);
     map::controls(ui, rect, state, studies, commands);
     rect
 }

@@ -2,7 +2,9 @@
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
 
-use super::{Arrow, Scene, View};
+use super::arrow::Arrow;
+use super::layout::Layout;
+use super::{Scene, View};
 use crate::app::round::round_step;
 use crate::app::theme;
 
@@ -18,12 +20,13 @@ pub fn background(painter: &Painter, visuals: &Visuals, view: &View) {
 
 /// Draws everything but the background and the handles. Over a map, whose colours mean something else, cables do not
 /// show their tension.
-pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, arrow: Arrow, over_map: bool) {
+pub fn scene(painter: &Painter, visuals: &Visuals, layout: &Layout, scene: &Scene, over_map: bool) {
+    let view = &layout.view;
     grid(painter, visuals, view, scene);
-    for cable in &scene.cables {
+    for (cable, &winch) in scene.cables.iter().zip(&layout.winches) {
         if cable.nodes.is_empty() {
             // No shape: the straight line, dashed, so that it reads as missing.
-            let line = [view.pos_in_ui(scene.platform), view.pos_in_ui(cable.anchor)];
+            let line = [layout.platform, winch];
             let stroke = Stroke::new(1.5, visuals.weak_text_color());
             // Far outside the canvas the dashes would be without number.
             if (line[1] - line[0]).length() < LONGEST_DASHED {
@@ -54,12 +57,11 @@ pub fn scene(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, a
             painter.line_segment(ends, Stroke::new(3.0, colour));
         }
     }
-    for (i, cable) in scene.cables.iter().enumerate() {
-        winch(painter, visuals, view, scene, i, cable.prescribed);
+    for (i, &at) in layout.winches.iter().enumerate() {
+        winch(painter, visuals, scene, i, at);
     }
-    velocity(painter, visuals, view, scene, arrow);
-    let platform = view.pos_in_ui(scene.platform);
-    painter.circle(platform, 11.0, theme::accent(visuals), Stroke::new(2.0, visuals.extreme_bg_color));
+    velocity(painter, visuals, layout);
+    painter.circle(layout.platform, 11.0, theme::accent(visuals), Stroke::new(2.0, visuals.extreme_bg_color));
 }
 
 fn polyline(painter: &Painter, view: &View, nodes: &[[f64; 2]], stroke: Stroke) {
@@ -114,11 +116,10 @@ fn trimmed(value: f64) -> String {
 }
 
 /// A winch with its cable's number: a filled square where the tension is prescribed, an open one at equilibrium.
-fn winch(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, i: usize, prescribed: bool) {
-    let at = view.pos_in_ui(scene.cables[i].anchor);
+fn winch(painter: &Painter, visuals: &Visuals, scene: &Scene, i: usize, at: Pos2) {
     let square = Rect::from_center_size(at, Vec2::splat(12.0));
     let colour = visuals.text_color();
-    let fill = if prescribed { colour } else { visuals.extreme_bg_color };
+    let fill = if scene.cables[i].prescribed { colour } else { visuals.extreme_bg_color };
     painter.rect(square, 2.0, fill, Stroke::new(2.0, colour), StrokeKind::Middle);
     let [x, y] = scene.cables[i].anchor;
     let middle = scene.frame.middle();
@@ -128,16 +129,9 @@ fn winch(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, i: us
     painter.text(number, Align2::CENTER_CENTER, (i + 1).to_string(), FontId::proportional(14.0), colour);
 }
 
-/// The arrow's tip on the screen.
-pub fn arrow_tip(view: &View, scene: &Scene, arrow: Arrow) -> Pos2 {
-    let away = arrow.away(scene.speed, view.scale);
-    view.pos_in_ui(scene.platform) + View::direction_in_ui(scene.direction) * away
-}
-
-fn velocity(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, arrow: Arrow) {
-    let direction = View::direction_in_ui(scene.direction);
-    let start = view.pos_in_ui(scene.platform) + direction * 14.0;
-    let tip = arrow_tip(view, scene, arrow);
+fn velocity(painter: &Painter, visuals: &Visuals, layout: &Layout) {
+    let Layout { platform, ahead: direction, tip, .. } = *layout;
+    let start = platform + direction * 14.0;
     let colour = theme::accent(visuals);
     let across = direction.rot90();
     let rim = Stroke::new(1.5, visuals.extreme_bg_color);
@@ -154,9 +148,9 @@ pub fn arrow_legend(painter: &Painter, visuals: &Visuals, rect: Rect, arrow: Arr
 }
 
 /// A dashed arrow in the direction with the lowest critical speed, with that speed in m/s.
-pub fn worst(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene, direction: [f64; 2], speed: &str) {
+pub fn worst(painter: &Painter, visuals: &Visuals, layout: &Layout, direction: [f64; 2], speed: &str) {
     let colour = theme::warning(visuals);
-    let platform = view.pos_in_ui(scene.platform);
+    let platform = layout.platform;
     let ahead = View::direction_in_ui(direction);
     let across = ahead.rot90();
     let tip = platform + ahead * 74.0;
