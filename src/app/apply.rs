@@ -6,7 +6,7 @@ use super::export::{self, Content};
 use super::files::{self, Clip};
 use super::notices::About;
 use super::pinned::Pinned;
-use super::state::Document;
+use super::state::{Document, Page, Plot};
 use super::{Command, Tautline, fields, number};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
@@ -61,16 +61,20 @@ impl Tautline {
             }
             Command::Open => self.files.open(context),
             Command::Save(content) => self.save_content(context, content),
-            Command::CopyModes => match export::plot(super::state::Plot::Modes, self.facts()) {
+            Command::CopyModes => match export::plot(Plot::Modes, self.facts()) {
                 Some(table) => {
                     self.files.copy(context, Clip { what: "The table of modes", text: table.tsv(), more: ".".into() });
                 }
                 None => self.complain("There are no modes to copy at this pose.".into()),
             },
             Command::ChooseMode(choice) => {
-                self.state.mode = choice;
+                self.session.mode = choice;
                 self.submit(&Request::Shape(choice));
                 self.notices.succeed(About::Action);
+            }
+            Command::Reveal(parameter) => {
+                self.session.revealed = Some(parameter);
+                self.state.page = Page::Controls;
             }
             Command::Check(index) => self.submit(&Request::Check(index)),
             Command::StopStudy(topic) => {
@@ -122,7 +126,7 @@ impl Tautline {
         self.present.document = document;
         if changed {
             number::forget_message(&self.context);
-            self.losses = 0;
+            self.engine.losses = 0;
             self.analyze();
         }
     }
@@ -135,11 +139,11 @@ impl Tautline {
             Content::Analysis => ("-analysis.json", export::analysis(facts)),
             Content::Plot(plot) => (export::suffix(plot), export::plot(plot, facts).map(|table| table.csv())),
             Content::Map => ("-map.csv", export::map(facts).map(|table| table.csv())),
-            Content::PlotPicture if self.plots_open => {
-                return self.files.save_picture(context, &(name + "-plot.png"), self.regions.plot);
+            Content::PlotPicture if self.screen.plots_open => {
+                return self.files.save_picture(context, &(name + "-plot.png"), self.screen.regions.plot);
             }
             Content::CanvasPicture => {
-                return self.files.save_picture(context, &(name + "-canvas.png"), self.regions.canvas);
+                return self.files.save_picture(context, &(name + "-canvas.png"), self.screen.regions.canvas);
             }
             Content::PlotPicture => ("", None),
         };

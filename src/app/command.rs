@@ -2,7 +2,7 @@
 
 use crate::app::export::Content;
 use crate::compute::protocol::{ModeChoice, Topic};
-use crate::scenario::Scenario;
+use crate::scenario::{Parameter, Scenario};
 
 /// A wish of a panel.
 #[derive(Clone, Debug)]
@@ -31,6 +31,8 @@ pub enum Command {
     CopyModes,
     /// Show another mode's shape.
     ChooseMode(ModeChoice),
+    /// Bring the control of this number into view.
+    Reveal(Parameter),
     /// Do this check against a known number.
     Check(usize),
     /// Stop a study; what is known of it stays.

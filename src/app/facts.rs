@@ -6,6 +6,7 @@ use crate::app::pinned::Pinned;
 use crate::app::settings::Settings;
 use crate::app::state::Document;
 use crate::app::studies::{Joined, Studies};
+use crate::compute::protocol::ModeChoice;
 
 /// The document and all that is known of it.
 pub struct Present {
@@ -22,11 +23,11 @@ pub struct Present {
 }
 
 impl Present {
-    /// What panels read, in these units.
-    pub fn facts(&self, settings: Settings) -> Facts<'_> {
+    /// What panels read, in these units and with the mode that is chosen.
+    pub fn facts(&self, settings: Settings, mode: ModeChoice) -> Facts<'_> {
         let Self { document, answers, studies, joined, pinned } = self;
         let certainty = Certainty::known(&document.scenario, answers, studies);
-        Facts { document, answers, studies, joined, pinned: pinned.as_ref(), certainty, settings }
+        Facts { document, answers, studies, joined, pinned: pinned.as_ref(), certainty, settings, mode }
     }
 }
 
@@ -47,6 +48,8 @@ pub struct Facts<'a> {
     pub certainty: Certainty,
     /// Units.
     pub settings: Settings,
+    /// The mode whose shape is wanted.
+    pub mode: ModeChoice,
 }
 
 impl Facts<'_> {

@@ -90,31 +90,32 @@ impl Tautline {
 
     /// What panels read.
     pub(super) fn facts(&self) -> Facts<'_> {
-        self.present.facts(self.state.settings)
+        self.present.facts(self.state.settings, self.session.mode)
     }
 
     fn answer(&mut self, ui: &mut Ui) {
         let top = ui.cursor().min;
         panels::answer::ui(ui, self.facts());
-        self.regions.answer = Rect::from_min_max(top, ui.min_rect().max).intersect(ui.clip_rect());
+        self.screen.regions.answer = Rect::from_min_max(top, ui.min_rect().max).intersect(ui.clip_rect());
     }
 
     fn controls(&mut self, ui: &mut Ui) {
-        let facts = self.present.facts(self.state.settings);
-        panels::controls::ui(&mut self.state, ui, facts, &mut self.commands);
-        self.regions.controls = ui.min_rect().intersect(ui.clip_rect());
+        let facts = self.present.facts(self.state.settings, self.session.mode);
+        panels::controls::ui(&mut self.session, ui, facts, &mut self.commands);
+        self.screen.regions.controls = ui.min_rect().intersect(ui.clip_rect());
     }
 
     fn plots(&mut self, ui: &mut Ui) {
-        self.plots_open = true;
-        let facts = self.present.facts(self.state.settings);
-        let place = panels::plots::ui(&mut self.state, ui, facts, &mut self.commands);
-        self.regions.plot = place.intersect(ui.clip_rect());
+        self.screen.plots_open = true;
+        let facts = self.present.facts(self.state.settings, self.session.mode);
+        let place = panels::plots::ui(&mut self.state, &mut self.session, ui, facts, &mut self.commands);
+        self.screen.regions.plot = place.intersect(ui.clip_rect());
     }
 
     fn canvas(&mut self, ui: &mut Ui) {
-        let facts = self.present.facts(self.state.settings);
-        self.regions.canvas = canvas::ui(&mut self.canvas, &mut self.state, ui, facts, &mut self.commands);
+        let facts = self.present.facts(self.state.settings, self.session.mode);
+        let Self { screen, state, session, commands, .. } = self;
+        screen.regions.canvas = canvas::ui(&mut screen.canvas, state, session, ui, facts, commands);
     }
 
     pub(super) fn menu(&mut self, ui: &mut Ui) {
@@ -124,7 +125,7 @@ impl Tautline {
             reset: self.present.document.scenario != self.present.document.original,
             unpin: self.present.pinned.is_some(),
         };
-        menu::ui(ui, &mut self.state, possible, &mut self.commands);
+        menu::ui(&mut self.state, &mut self.session, ui, possible, &mut self.commands);
     }
 }
 

@@ -9,7 +9,7 @@ use crate::app::command::Command;
 use crate::app::export::Content;
 use crate::app::meaning::Explain as _;
 use crate::app::shortcuts::{OPEN, REDO, REDO_TOO, SAVE, UNDO};
-use crate::app::state::{Camera, Plot, UiState};
+use crate::app::state::{Camera, Plot, Session, UiState};
 use crate::app::windows;
 
 /// What can be done, as far as it depends on more than the interface's state.
@@ -27,14 +27,14 @@ pub struct Possible {
 }
 
 /// Draws the bar.
-pub fn ui(ui: &mut Ui, state: &mut UiState, possible: Possible, commands: &mut Vec<Command>) {
+pub fn ui(state: &mut UiState, session: &mut Session, ui: &mut Ui, possible: Possible, commands: &mut Vec<Command>) {
     Panel::top("menu").show(ui, |ui| {
         let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClick);
         MenuBar::new().config(config).ui(ui, |ui| {
             ui.menu_button("File", |ui| file(ui, state.plot, commands));
             ui.menu_button("Edit", |ui| edit(ui, possible, commands));
-            ui.menu_button("View", |ui| view(ui, state));
-            ui.menu_button("Help", |ui| help(ui, state));
+            ui.menu_button("View", |ui| view(state, session, ui));
+            ui.menu_button("Help", |ui| help(session, ui));
             ui.separator();
             if ui.button("Share").explained("Puts a link to this robot on the clipboard").clicked() {
                 commands.push(Command::Share);
@@ -102,35 +102,35 @@ fn edit(ui: &mut Ui, possible: Possible, commands: &mut Vec<Command>) {
     }
 }
 
-fn view(ui: &mut Ui, state: &mut UiState) {
+fn view(state: &mut UiState, session: &mut Session, ui: &mut Ui) {
     ui.toggle_value(&mut state.map.on, "Map");
     ui.toggle_value(&mut state.playback.playing, "Mode shape moves");
     if ui.button("Show the whole robot").clicked() {
-        state.camera = Camera::default();
+        session.camera = Camera::default();
     }
     ui.separator();
     if ui.button("Settings").clicked() {
-        state.windows.settings = true;
+        session.windows.settings = true;
     }
 }
 
-fn help(ui: &mut Ui, state: &mut UiState) {
+fn help(session: &mut Session, ui: &mut Ui) {
     if entry(ui, "Tour", None, true) {
-        state.tour = Some(0);
+        session.tour = Some(0);
     }
     if entry(ui, "Keyboard shortcuts", None, true) {
-        state.windows.shortcuts = true;
+        session.windows.shortcuts = true;
     }
     if entry(ui, "Theory", None, true) {
-        state.windows.theory = true;
+        session.windows.theory = true;
     }
     if entry(ui, "Validation", None, true) {
-        state.windows.validation = true;
+        session.windows.validation = true;
     }
 }
 
 /// Carries out the keys pressed in this frame.
-pub fn keys(context: &Context, state: &mut UiState, commands: &mut Vec<Command>) {
+pub fn keys(state: &mut UiState, session: &mut Session, context: &Context, commands: &mut Vec<Command>) {
     // A text field has its own undo and its own letters.
     if context.text_edit_focused() {
         return;
@@ -150,7 +150,7 @@ pub fn keys(context: &Context, state: &mut UiState, commands: &mut Vec<Command>)
             commands.push(Command::Save(Content::Scenario));
         }
     });
-    escape(context, state);
+    escape(state, session, context);
     // A focused button takes the space bar, and letters are for whoever has the focus.
     let focused = context.memory(|memory| memory.focused().is_some());
     context.input_mut(|input| {
@@ -168,26 +168,26 @@ pub fn keys(context: &Context, state: &mut UiState, commands: &mut Vec<Command>)
         }
         for (key, factor) in [(Key::Plus, 1.25), (Key::Minus, 0.8)] {
             if pressed(key) {
-                state.camera.magnify(factor);
+                session.camera.magnify(factor);
             }
         }
         if pressed(Key::Num0) {
-            state.camera = Camera::default();
+            session.camera = Camera::default();
         }
         if input.events.iter().any(|event| matches!(event, eframe::egui::Event::Text(text) if text == "?")) {
-            state.windows.shortcuts = true;
+            session.windows.shortcuts = true;
         }
     });
 }
 
 /// Esc closes the innermost thing that is open, one for each press: a list, a menu or an explanation; else the foremost
 /// window; else the tour. What is typed comes before all of them, and is taken back by its field.
-fn escape(context: &Context, state: &mut UiState) {
+fn escape(state: &mut UiState, session: &mut Session, context: &Context) {
     // These hear of the key from egui.
     if Popup::is_any_open(context) || !context.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
         return;
     }
-    if !windows::close_foremost(context, &mut state.windows) {
-        state.tour_taken |= state.tour.take().is_some();
+    if !windows::close_foremost(&mut session.windows, context) {
+        state.tour_taken |= session.tour.take().is_some();
     }
 }

@@ -10,6 +10,7 @@ mod canvas;
 mod certainty;
 mod command;
 mod digits;
+mod engine;
 mod export;
 mod facts;
 mod fields;
@@ -30,6 +31,7 @@ mod persist;
 mod pinned;
 mod regions;
 mod round;
+mod screen;
 mod series;
 mod settings;
 mod shortcuts;
@@ -48,20 +50,19 @@ use eframe::egui::{self, Event, Ui};
 
 use answers::{Answers, CriticalState};
 use command::Command;
+use engine::Engine;
 use facts::Present;
 use files::Files;
 use history::History;
 use notices::{About, Notices};
-use persist::{Keeper, Keeping};
+use persist::{Keeper, Keeping, Kept};
 use pinned::Pinned;
-use regions::Regions;
-use settings::Settings;
-use state::{Document, UiState};
+use screen::Screen;
+use state::{Document, Session, UiState};
 use studies::{Joined, Order, Studies};
 
-use crate::compute::protocol::{Job, Reply, Request, Revision, Topic, Update, Which};
-use crate::compute::{Compute, Pool};
-use crate::scenario::report::DEFAULT_MAX_SPEED;
+use crate::compute::Pool;
+use crate::compute::protocol::{Reply, Request, Revision, Topic, Update, Which};
 use crate::scenario::{Report, Scenario, presets};
 
 #[cfg(target_arch = "wasm32")]
@@ -73,33 +74,20 @@ const NARROW: f32 = 760.0;
 const HEARTBEAT: Duration = Duration::from_millis(100);
 /// While the engine owes an answer it is looked after at least this often.
 const ENGINE_HEARTBEAT: Duration = Duration::from_millis(500);
-/// An engine that is lost so often over one state of the document is not started again before the next one.
-const MOST_LOSSES: u32 = 2;
 
 /// The application.
 pub struct Tautline {
+    /// To wake the interface with.
+    context: egui::Context,
     present: Present,
     history: History,
     state: UiState,
-    /// To wake the interface with.
-    context: egui::Context,
-    compute: Option<Compute>,
-    /// How often the engine was lost over the document as it is.
-    losses: u32,
+    session: Session,
+    screen: Screen,
+    engine: Engine,
     pool: Pool,
     files: Files,
-    keeper: Keeper,
-    /// Where a browser keeps what belongs to this tab alone.
-    own: Option<Box<dyn eframe::Storage>>,
-    /// The settings that have been carried out; at first those of the system.
-    applied: Settings,
-    /// Whether the plots were drawn in the last frame; a narrow screen may not show them.
-    plots_open: bool,
-    /// Where things were drawn in the last frame, for pictures of them.
-    regions: Regions,
-    canvas: canvas::Runtime,
-    windows: windows::Runtime,
-    revision: Revision,
+    kept: Kept,
     notices: Notices,
     commands: Vec<Command>,
     #[cfg(target_arch = "wasm32")]
@@ -159,8 +147,7 @@ impl Tautline {
         // What was there the last time comes back with undo.
         history.step(&document);
         let mut app = Self {
-            keeper: Keeper::new(&storages),
-            own,
+            context: context.clone(),
             present: Present {
                 document,
                 answers: Answers::default(),
@@ -170,17 +157,12 @@ impl Tautline {
             },
             history,
             state,
-            context: context.clone(),
-            compute: None,
-            losses: 0,
+            session: Session::default(),
+            screen: Screen::default(),
+            engine: Engine::new(context),
             pool,
             files: Files::new(context),
-            applied: Settings::default(),
-            plots_open: false,
-            regions: Regions::default(),
-            canvas: canvas::Runtime::default(),
-            windows: windows::Runtime::default(),
-            revision: 0,
+            kept: Kept { keeper: Keeper::new(&storages), own },
             notices,
             commands: Vec::new(),
             #[cfg(target_arch = "wasm32")]
@@ -189,7 +171,7 @@ impl Tautline {
             tone: tone::Tone::default(),
         };
         if start.tour && !app.state.tour_taken {
-            app.state.tour = Some(0);
+            app.session.tour = Some(0);
         }
         if app.state.settings.reduces_motion() {
             app.reduce_motion(context);
@@ -239,48 +221,27 @@ impl Tautline {
         studies::TOPICS.into_iter().filter(|topic| self.pool.progress(*topic).is_some()).collect()
     }
 
-    /// Sends the document to the engine, which is started where there is none.
+    /// Has the document analysed as it is now.
     fn analyze(&mut self) {
-        self.revision += 1;
-        if self.compute.is_none() {
-            let wake = self.context.clone();
-            match Compute::start(move || wake.request_repaint()) {
-                Ok(compute) => {
-                    self.compute = Some(compute);
-                    self.present.answers.mend();
-                }
-                Err(reason) => self.present.answers.break_down(reason),
-            }
-        }
-        self.present.answers.expect(self.revision);
-        let job = Job {
-            revision: self.revision,
-            scenario: self.present.document.scenario.to_json(),
-            max_speed: DEFAULT_MAX_SPEED,
-            mode: self.state.mode,
-        };
-        self.submit(&Request::Analyze(job));
+        let Present { document, answers, .. } = &mut self.present;
+        self.engine.analyze(&document.scenario, self.session.mode, answers);
     }
 
     /// The engine is gone, or does not answer: starts it again, but not for ever.
     fn engine_lost(&mut self, reason: String) {
-        self.compute = None;
-        self.windows.validation.ask_again();
-        self.losses += 1;
-        if self.losses > MOST_LOSSES {
+        self.screen.windows.validation.ask_again();
+        if !self.engine.lose() {
             self.present.answers.break_down(reason);
             return;
         }
         self.analyze();
-        if self.compute.is_some() {
+        if self.engine.compute.is_some() {
             self.complain(format!("The computation was lost ({reason}) and has been started again."));
         }
     }
 
     fn submit(&mut self, request: &Request) {
-        if let Some(Err(reason)) = self.compute.as_mut().map(|compute| compute.submit(request)) {
-            self.present.answers.break_down(reason);
-        }
+        self.engine.submit(request, &mut self.present.answers);
     }
 
     fn carry_out(&mut self, orders: impl IntoIterator<Item = Order>) {
@@ -296,7 +257,7 @@ impl Tautline {
     fn study_on(&mut self) {
         let critical =
             self.present.answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.speed);
-        let plot = self.plots_open.then_some(self.state.plot);
+        let plot = self.screen.plots_open.then_some(self.state.plot);
         let at_rest = self.present.answers.all_current() && !self.context.input(|input| input.pointer.any_down());
         let wishes = studies::wanted(&self.present.document.scenario, &self.state, plot, critical, at_rest);
         let orders = self.present.studies.want(wishes);
@@ -325,11 +286,10 @@ impl Tautline {
     }
 
     fn take_replies(&mut self) {
-        let replies = self.compute.as_mut().map(Compute::poll).unwrap_or_default();
-        for reply in replies {
+        for reply in self.engine.poll() {
             let reply = match reply {
                 Reply { update: Update::Checked(answer), .. } => {
-                    self.windows.validation.take(*answer);
+                    self.screen.windows.validation.take(*answer);
                     continue;
                 }
                 Reply { update: Update::Broken(reason), .. } => {
@@ -340,14 +300,14 @@ impl Tautline {
                 reply => reply,
             };
             // A chosen mode is followed while the robot changes: the next one wanted is the nearest to this.
-            if let (Update::Shape(shape), Which::Near(_)) = (&reply.update, self.state.mode.which)
+            if let (Update::Shape(shape), Which::Near(_)) = (&reply.update, self.session.mode.which)
                 && !shape.is_critical
             {
-                self.state.mode.which = Which::Near(shape.eigenvalue);
+                self.session.mode.which = Which::Near(shape.eigenvalue);
             }
             // An older search may end with its critical mode after another one was chosen.
             let other = matches!(&reply.update, Update::Shape(shape) if shape.is_critical)
-                && self.state.mode.which != Which::Critical;
+                && self.session.mode.which != Which::Critical;
             if !other {
                 self.present.answers.take(reply);
             }
@@ -374,27 +334,27 @@ impl Tautline {
     /// Carries out what has changed in the settings.
     fn apply_settings(&mut self, context: &egui::Context) {
         let settings = self.state.settings;
-        if settings.theme != self.applied.theme {
+        if settings.theme != self.screen.applied.theme {
             theme::choose(context, settings.theme);
         }
-        if settings.motion != self.applied.motion && settings.reduces_motion() {
+        if settings.motion != self.screen.applied.motion && settings.reduces_motion() {
             self.reduce_motion(context);
         }
-        self.applied = settings;
+        self.screen.applied = settings;
     }
 
     /// Writes down what is to survive a restart.
     fn keep(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
         // Coming back to a window makes it the one that was used last.
         if context.input(|input| input.events.contains(&Event::WindowFocused(true))) {
-            self.keeper.renew();
+            self.kept.keeper.renew();
         }
         let shared = frame.storage_mut().map(|storage| -> &mut dyn eframe::Storage { storage });
-        let mut storages = persist::storages(&mut self.own, shared);
-        if let Some(wait) = self.keeper.keep(&mut storages, &self.present.document) {
+        let mut storages = persist::storages(&mut self.kept.own, shared);
+        if let Some(wait) = self.kept.keeper.keep(&mut storages, &self.present.document) {
             context.request_repaint_after(wait);
         }
-        match self.keeper.news() {
+        match self.kept.keeper.news() {
             Some(Keeping::Refused) => self.notices.complain(
                 About::Storage,
                 "What you do here is not kept when this is closed: its storage is full or blocked. Save the scenario as \
@@ -409,7 +369,7 @@ impl Tautline {
 
 impl eframe::App for Tautline {
     fn logic(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
-        menu::keys(context, &mut self.state, &mut self.commands);
+        menu::keys(&mut self.state, &mut self.session, context, &mut self.commands);
         self.commands.extend(self.files.poll(context));
         #[cfg(target_arch = "wasm32")]
         self.commands.extend(self.page.news());
@@ -420,7 +380,7 @@ impl eframe::App for Tautline {
         self.history.watch(context, &self.present.document);
         self.take_replies();
         let pinning = self.present.pinned.as_ref().is_some_and(|pinned| !pinned.is_complete());
-        if self.present.answers.are_awaited() || pinning || self.windows.validation.is_waiting() {
+        if self.present.answers.are_awaited() || pinning || self.screen.windows.validation.is_waiting() {
             context.request_repaint_after(ENGINE_HEARTBEAT);
         }
         self.study_on();
@@ -435,32 +395,35 @@ impl eframe::App for Tautline {
             self.present
                 .answers
                 .shape()
-                .filter(|_| self.state.playback.sound)
+                .filter(|_| self.session.sound)
                 .map(|shape| shape.eigenvalue[1].abs() / std::f64::consts::TAU),
         );
         self.apply_settings(context);
         #[cfg(target_arch = "wasm32")]
         {
-            let facts = self.present.facts(self.state.settings);
+            let facts = self.present.facts(self.state.settings, self.session.mode);
             self.page.publish(facts, frame.info().cpu_usage);
             let lines: Vec<&str> = self.notices.lines().iter().map(|line| line.text.as_str()).collect();
             let notice = number::message(context).or_else(|| (!lines.is_empty()).then(|| lines.join(" ")));
-            self.page.tell(notice.or_else(|| tour::text(&self.state)).or_else(|| self.windows.text(&self.state)));
+            self.page.tell(
+                notice.or_else(|| tour::text(&self.session)).or_else(|| self.screen.windows.text(self.session.windows)),
+            );
         }
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.menu(ui);
         self.notice_bar(ui);
-        self.plots_open = false;
+        self.screen.plots_open = false;
         if ui.available_width() < NARROW {
             self.narrow(ui);
         } else {
             self.wide(ui);
         }
-        windows::ui(ui.ctx(), &mut self.state, &mut self.windows, &mut self.commands);
+        let Self { screen, session, state, commands, .. } = self;
+        windows::ui(&mut screen.windows, &mut session.windows, &mut state.settings, ui.ctx(), commands);
         files::announce_drop(ui.ctx());
-        tour::ui(ui.ctx(), &mut self.state, &self.regions);
+        tour::ui(&mut self.state, &mut self.session, ui.ctx(), &self.screen.regions);
         // A browser lets a page write to the clipboard only while it handles the click that asks for it.
         for command in self.commands.extract_if(.., |command| command.is_copy()).collect::<Vec<_>>() {
             self.apply(ui.ctx(), command);
@@ -472,7 +435,7 @@ impl eframe::App for Tautline {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        persist::keep_state(&mut persist::storages(&mut self.own, Some(storage)), &self.state);
+        persist::keep_state(&mut persist::storages(&mut self.kept.own, Some(storage)), &self.state);
     }
 
     fn auto_save_interval(&self) -> Duration {

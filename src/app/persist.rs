@@ -66,6 +66,14 @@ pub enum Keeping {
     Refused,
 }
 
+/// Where things are kept, and what is known to be there.
+pub struct Kept {
+    /// Where a browser keeps what belongs to this tab alone.
+    pub own: Option<Box<dyn Storage>>,
+    /// What has been written.
+    pub keeper: Keeper,
+}
+
 /// Writes the document down soon after each change.
 #[derive(Debug)]
 pub struct Keeper {

@@ -83,7 +83,7 @@ pub enum Page {
     Plots,
 }
 
-/// How the document is looked at. It survives a restart, but for what belongs to the moment.
+/// How the document is looked at, as far as that survives a restart.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default)]
 pub struct UiState {
@@ -91,40 +91,51 @@ pub struct UiState {
     pub plot: Plot,
     /// What a narrow screen shows.
     pub page: Page,
-    /// The mode whose shape is drawn.
-    #[serde(skip, default = "critical_mode")]
-    pub mode: ModeChoice,
     /// The mode shape's movement.
     pub playback: Playback,
     /// The widths of the panels on the left and on the right, in points, as they were set.
     pub panels: [f32; 2],
     /// Whether the tour has been taken or skipped.
     pub tour_taken: bool,
-    /// The tour's step on show, from 0.
-    #[serde(skip)]
-    pub tour: Option<usize>,
-    /// The control to bring into view.
-    #[serde(skip)]
-    pub wanted: Option<Parameter>,
-    /// Whether winches can be dragged.
-    #[serde(skip)]
-    pub unlocked: bool,
-    /// The canvas's zoom and pan.
-    #[serde(skip)]
-    pub camera: Camera,
     /// The map under the robot.
     pub map: MapView,
     /// Up to which frequency the Campbell diagram is drawn, in Hz.
     pub campbell_hz: f64,
     /// What people choose once.
     pub settings: Settings,
+}
+
+/// How the document is looked at for the moment: a restart begins anew.
+#[derive(Clone, Debug)]
+pub struct Session {
+    /// The mode whose shape is drawn.
+    pub mode: ModeChoice,
+    /// Whether the mode's frequency sounds as a tone; pages may not sound unasked.
+    pub sound: bool,
+    /// The tour's step on show, from 0.
+    pub tour: Option<usize>,
+    /// The control to bring into view.
+    pub revealed: Option<Parameter>,
+    /// Whether winches can be dragged.
+    pub unlocked: bool,
+    /// The canvas's zoom and pan.
+    pub camera: Camera,
     /// Windows over the page.
-    #[serde(skip)]
     pub windows: Windows,
 }
 
-fn critical_mode() -> ModeChoice {
-    ModeChoice { which: Which::Critical, along_x: false }
+impl Default for Session {
+    fn default() -> Self {
+        Self {
+            mode: ModeChoice { which: Which::Critical, along_x: false },
+            sound: false,
+            tour: None,
+            revealed: None,
+            unlocked: false,
+            camera: Camera::default(),
+            windows: Windows::default(),
+        }
+    }
 }
 
 /// Which windows are open.
@@ -146,27 +157,13 @@ impl Default for UiState {
         Self {
             plot: Plot::default(),
             page: Page::default(),
-            mode: critical_mode(),
             playback: Playback::default(),
             panels: [380.0, 340.0],
             tour_taken: false,
-            tour: None,
-            wanted: None,
-            unlocked: false,
-            camera: Camera::default(),
             map: MapView::default(),
             campbell_hz: 5.0,
             settings: Settings::default(),
-            windows: Windows::default(),
         }
-    }
-}
-
-impl UiState {
-    /// Brings the control of a number into view.
-    pub fn reveal(&mut self, number: Parameter) {
-        self.wanted = Some(number);
-        self.page = Page::Controls;
     }
 }
 
@@ -182,14 +179,11 @@ pub struct Playback {
     pub slow_motion: f64,
     /// The oscillation's phase in radians.
     pub phase: f64,
-    /// Whether the frequency sounds as a tone; not kept, since pages may not sound unasked.
-    #[serde(skip)]
-    pub sound: bool,
 }
 
 impl Default for Playback {
     fn default() -> Self {
-        Self { playing: true, amplitude: 0.03, slow_motion: 1.0, phase: 0.0, sound: false }
+        Self { playing: true, amplitude: 0.03, slow_motion: 1.0, phase: 0.0 }
     }
 }
 

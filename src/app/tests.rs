@@ -23,14 +23,19 @@ fn an_engine_that_is_lost_twice_between_two_frames_is_started_again_once() {
         let (outbox, replies) = channel();
         for reason in reasons {
             let update = Update::Broken((*reason).into());
-            outbox.send(Reply { revision: app.state().revision, update }).expect("an open channel");
+            outbox.send(Reply { revision: app.state().engine.revision, update }).expect("an open channel");
         }
-        app.state_mut().compute = Some(Compute::of_replies(replies));
-        let before = app.state().revision;
+        app.state_mut().engine.compute = Some(Compute::of_replies(replies));
+        let before = app.state().engine.revision;
         app.step();
         let state = app.state();
-        assert_eq!((state.losses as usize, state.revision), (loss + 1, before + 1), "{:?}", state.notice());
-        assert!(state.compute.is_some(), "it has been started again");
+        assert_eq!(
+            (state.engine.losses as usize, state.engine.revision),
+            (loss + 1, before + 1),
+            "{:?}",
+            state.notice()
+        );
+        assert!(state.engine.compute.is_some(), "it has been started again");
         assert!(state.notice().is_some_and(|notice| notice.contains("(an error)")), "{:?}", state.notice());
     }
 }

@@ -5,7 +5,7 @@ use eframe::egui::{
 };
 
 use crate::app::regions::Regions;
-use crate::app::state::{Page, UiState};
+use crate::app::state::{Page, Session, UiState};
 use crate::app::theme;
 
 /// What a step is about.
@@ -48,14 +48,14 @@ const STEPS: [(&str, &str, Part); 6] = [
 
 /// The step on show as a text.
 #[cfg(target_arch = "wasm32")]
-pub fn text(state: &UiState) -> Option<String> {
-    let (title, text, _) = STEPS[state.tour?.min(STEPS.len() - 1)];
+pub fn text(session: &Session) -> Option<String> {
+    let (title, text, _) = STEPS[session.tour?.min(STEPS.len() - 1)];
     Some(format!("{title}. {text}"))
 }
 
 /// Draws the step on show.
-pub fn ui(context: &Context, state: &mut UiState, regions: &Regions) {
-    let Some(step) = state.tour else { return };
+pub fn ui(state: &mut UiState, session: &mut Session, context: &Context, regions: &Regions) {
+    let Some(step) = session.tour else { return };
     let (title, text, part) = STEPS[step.min(STEPS.len() - 1)];
     // On a narrow screen plots and controls share their place.
     match part {
@@ -85,19 +85,19 @@ pub fn ui(context: &Context, state: &mut UiState, regions: &Regions) {
             ui.horizontal(|ui| {
                 let last = step + 1 == STEPS.len();
                 if ui.button(if last { "Done" } else { "Next" }).clicked() {
-                    state.tour = (!last).then_some(step + 1);
+                    session.tour = (!last).then_some(step + 1);
                 }
                 if step > 0 && ui.button("Back").clicked() {
-                    state.tour = Some(step - 1);
+                    session.tour = Some(step - 1);
                 }
                 if !last && ui.button("Skip the tour").clicked() {
-                    state.tour = None;
+                    session.tour = None;
                 }
                 ui.weak(format!("{} of {}", step + 1, STEPS.len()));
             });
         });
     });
-    state.tour_taken |= state.tour.is_none();
+    state.tour_taken |= session.tour.is_none();
 }
 
 /// Where the step is shown: low on a wide screen's canvas, at the foot of a narrow screen.

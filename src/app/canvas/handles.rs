@@ -180,7 +180,7 @@ fn keys(ui: &Ui, response: &Response) -> Option<([f64; 2], f64)> {
 
 /// Zoom with the wheel or two fingers, pan by dragging the background; where clicks mean nothing else, double-click to
 /// see the whole robot.
-pub fn camera(ui: &Ui, background: &Response, view: &View, camera: &mut Camera, clicks_are_free: bool) {
+pub fn camera(camera: &mut Camera, ui: &Ui, background: &Response, view: &View, clicks_are_free: bool) {
     if background.double_clicked() && clicks_are_free {
         *camera = Camera::default();
         return;

@@ -19,7 +19,7 @@ pub use view::View;
 
 use crate::app::command::Command;
 use crate::app::facts::Facts;
-use crate::app::state::{Plot, UiState};
+use crate::app::state::{Plot, Session, UiState};
 use crate::app::{digits, series};
 use crate::compute::protocol::Topic;
 use crate::robot::BoundingBox;
@@ -41,6 +41,7 @@ pub struct Runtime {
 pub fn ui(
     runtime: &mut Runtime,
     state: &mut UiState,
+    session: &mut Session,
     ui: &mut Ui,
     facts: Facts<'_>,
     commands: &mut Vec<Command>,
@@ -55,7 +56,7 @@ pub fn ui(
     runtime.frame = Some(frame);
     let held = runtime.arrow.filter(|_| pressed && runtime.holds_tip);
     let before = runtime.arrow.map(|arrow| arrow.step);
-    let layout = Layout::new(rect, frame, state.camera, &scene, held, before);
+    let layout = Layout::new(rect, frame, session.camera, &scene, held, before);
     let view = &layout.view;
     runtime.arrow = Some(layout.arrow);
     let mut painter = ui.painter_at(rect);
@@ -73,10 +74,10 @@ pub fn ui(
         map::point(ui, &painter, &background, view, facts, commands);
     }
     runtime.holds_tip = handles::ui(ui, &painter, &layout, &scene, document, commands);
-    if state.unlocked {
+    if session.unlocked {
         handles::winches(ui, &painter, &layout, &scene, document, commands);
     }
-    handles::camera(ui, &background, view, &mut state.camera, !state.map.on);
+    handles::camera(&mut session.camera, ui, &background, view, !state.map.on);
     if state.map.on {
         runtime.layer.legend(&painter, ui, rect, facts);
     } else {
@@ -84,6 +85,6 @@ pub fn ui(
     }
     let legend = !state.map.on && scene.tensions.is_some();
     paint::arrow_legend(&painter, ui.visuals(), rect, layout.arrow, legend);
-    map::controls(ui, rect, state, studies, commands);
+    map::controls(&mut state.map, &mut session.camera, ui, rect, studies, commands);
     rect
 }

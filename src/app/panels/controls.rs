@@ -9,22 +9,27 @@ use crate::app::facts::Facts;
 use crate::app::fields;
 use crate::app::meaning::Explain as _;
 use crate::app::number;
-use crate::app::state::{Document, UiState};
+use crate::app::state::{Document, Session};
 use crate::robot::{Linearisation, Strain, TensionLaw};
 use crate::scenario::{Parameter, Scenario, presets};
 
 /// Draws the controls; a change becomes one command.
-pub fn ui(state: &mut UiState, ui: &mut Ui, Facts { document, settings, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(
+    session: &mut Session,
+    ui: &mut Ui,
+    Facts { document, settings, .. }: Facts<'_>,
+    commands: &mut Vec<Command>,
+) {
     let edited = document.scenario.clone();
-    let mut sheet = Sheet { edited, original: &document.original, wanted: state.wanted, settings };
+    let mut sheet = Sheet { edited, original: &document.original, revealed: session.revealed, settings };
     examples(ui, document, commands);
     group(ui, "Motion", &mut sheet, &fields::MOTION);
     group(ui, "Cables and platform", &mut sheet, &fields::BODY);
     group(ui, "Damping and mesh", &mut sheet, &fields::MODEL);
     choices(ui, &mut sheet.edited);
     tensions(ui, &mut sheet);
-    robot::ui(ui, &mut state.unlocked, &mut sheet);
-    state.wanted = sheet.wanted;
+    robot::ui(&mut session.unlocked, ui, &mut sheet);
+    session.revealed = sheet.revealed;
     if sheet.edited != document.scenario {
         commands.push(Command::Edit(Box::new(sheet.edited)));
     }
@@ -90,7 +95,7 @@ fn tensions(ui: &mut Ui, sheet: &mut Sheet<'_>) {
             TensionLaw::Constant(tension) => format!("{} N", number::brief(tension)),
             TensionLaw::Hypot { .. } => "by law".into(),
         };
-        let open = matches!(sheet.wanted, Some(Parameter::Tension(of) | Parameter::Horizontal(of, _)) if of == cable)
+        let open = matches!(sheet.revealed, Some(Parameter::Tension(of) | Parameter::Horizontal(of, _)) if of == cable)
             .then_some(true);
         let header =
             CollapsingHeader::new(format!("Cable {}: {kind}", cable + 1)).id_salt(("tension", cable)).open(open);

@@ -12,18 +12,12 @@ use crate::app::facts::Facts;
 use crate::app::gestures;
 use crate::app::pinned::Pinned;
 use crate::app::theme;
-use crate::compute::protocol::ModeChoice;
 
 /// A click chooses a point that is at most this far away, in points.
 const REACH: f32 = 24.0;
 
 /// Draws the plot.
-pub fn ui(
-    ui: &mut Ui,
-    Facts { answers, settings, pinned, .. }: Facts<'_>,
-    choice: ModeChoice,
-    commands: &mut Vec<Command>,
-) {
+pub fn ui(ui: &mut Ui, Facts { answers, settings, pinned, mode: choice, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Right of the line a vibration grows. Click a point: its mode moves on the canvas."

@@ -3,10 +3,10 @@
 use eframe::egui::{Align2, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
 use super::{STALE, explain};
+use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
-use crate::app::state::UiState;
 use crate::app::theme;
 use crate::robot::TensionLaw;
 use crate::scenario::{Parameter, Scenario};
@@ -19,7 +19,7 @@ const NAME: f32 = 122.0;
 const VALUE: f32 = 58.0;
 
 /// Draws the bars; a click goes to the control.
-pub fn ui(ui: &mut Ui, state: &mut UiState, facts: Facts<'_>) {
+pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     let Facts { document, answers, pinned, .. } = facts;
     let uncertainty = uncertainty(facts.share());
     let Some((found, current)) = answers.sensitivities() else {
@@ -50,7 +50,7 @@ pub fn ui(ui: &mut Ui, state: &mut UiState, facts: Facts<'_>) {
     for one in &found {
         let then = before.and_then(|all| all.iter().find(|other| other.knob == one.knob)).map(|other| other.speed);
         if bar(ui, one, [largest, uncertainty], then, current) {
-            state.reveal(control(one.knob, &document.scenario));
+            commands.push(Command::Reveal(control(one.knob, &document.scenario)));
         }
     }
 }

@@ -10,16 +10,11 @@ use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
 use crate::app::pinned::Pinned;
 use crate::app::theme;
-use crate::compute::protocol::{ModeChoice, ModeRow};
+use crate::compute::protocol::ModeRow;
 use crate::stability::{TIE_OF_SHARES, first_largest};
 
 /// Draws the table.
-pub fn ui(
-    ui: &mut Ui,
-    Facts { answers, settings, pinned, .. }: Facts<'_>,
-    choice: ModeChoice,
-    commands: &mut Vec<Command>,
-) {
+pub fn ui(ui: &mut Ui, Facts { answers, settings, pinned, mode: choice, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     let Some(pose) = with_modes(ui, answers) else { return };
     ui.weak(if answers.pose_is_current() {
         "Modes at today's speed. ζ < 0 grows. The cable is the one with most of the kinetic energy."

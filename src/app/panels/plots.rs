@@ -12,7 +12,7 @@ use crate::app::gestures;
 use crate::app::meaning::Explain as _;
 use crate::app::number::{self, Control, Unit};
 use crate::app::settings::Settings;
-use crate::app::state::{Playback, Plot, UiState};
+use crate::app::state::{Playback, Plot, Session, UiState};
 use crate::app::tone;
 use crate::compute::protocol::{ModeChoice, ModeShape, Which};
 use crate::robot::Linearisation;
@@ -30,8 +30,14 @@ const TABS: [(Plot, &str); 8] = [
 ];
 
 /// Draws the tabs, the open plot and the playback. Gives where the plot is.
-pub fn ui(state: &mut UiState, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) -> Rect {
-    playback(&mut state.playback, ui, facts, state.mode, commands);
+pub fn ui(
+    state: &mut UiState,
+    session: &mut Session,
+    ui: &mut Ui,
+    facts: Facts<'_>,
+    commands: &mut Vec<Command>,
+) -> Rect {
+    playback(&mut state.playback, &mut session.sound, ui, facts, commands);
     ui.separator();
     ui.horizontal_wrapped(|ui| {
         for (plot, name) in TABS {
@@ -40,14 +46,14 @@ pub fn ui(state: &mut UiState, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec
     });
     let top = ui.cursor().min;
     match state.plot {
-        Plot::Eigenvalues => eigenvalues::ui(ui, facts, state.mode, commands),
+        Plot::Eigenvalues => eigenvalues::ui(ui, facts, commands),
         Plot::Growth => growth::ui(ui, facts),
-        Plot::Modes => modes::ui(ui, facts, state.mode, commands),
+        Plot::Modes => modes::ui(ui, facts, commands),
         Plot::Line => line::ui(ui, facts, commands),
         Plot::Directions => directions::ui(ui, facts, commands),
         Plot::Campbell => campbell::ui(&mut state.campbell_hz, ui, facts, commands),
         Plot::Mesh => mesh::ui(ui, facts, commands),
-        Plot::Knobs => knobs::ui(ui, state, facts),
+        Plot::Knobs => knobs::ui(ui, facts, commands),
     }
     Rect::from_min_max(top, ui.min_rect().max)
 }
@@ -81,9 +87,9 @@ fn on_show(shape: &ModeShape, which: Which, settings: Settings) -> String {
 
 fn playback(
     playback: &mut Playback,
+    sound: &mut bool,
     ui: &mut Ui,
-    Facts { document, answers, settings, .. }: Facts<'_>,
-    choice: ModeChoice,
+    Facts { document, answers, settings, mode: choice, .. }: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
     ui.label(
@@ -136,7 +142,7 @@ fn playback(
         number::slider(ui, &control, meaning, &mut playback.slow_motion, [0.02, 2.0]);
         if cfg!(target_arch = "wasm32") {
             let frequency = answers.shape().map(|shape| shape.eigenvalue[1].abs() / TAU);
-            ui.toggle_value(&mut playback.sound, "Sound").explained(tone::text(frequency, settings));
+            ui.toggle_value(sound, "Sound").explained(tone::text(frequency, settings));
         }
     });
 }

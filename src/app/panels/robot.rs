@@ -11,7 +11,7 @@ use crate::scenario::v1::Cable;
 use crate::scenario::{Parameter, Scenario};
 
 /// Draws the controls.
-pub(super) fn ui(ui: &mut Ui, unlocked: &mut bool, sheet: &mut Sheet<'_>) {
+pub(super) fn ui(unlocked: &mut bool, ui: &mut Ui, sheet: &mut Sheet<'_>) {
     ui.add_space(6.0);
     CollapsingHeader::new("Layout of the robot").show(ui, |ui| {
         ui.checkbox(unlocked, "Unlock the winches")

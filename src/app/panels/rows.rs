@@ -22,7 +22,7 @@ pub(super) struct Sheet<'a> {
     /// What values reset to.
     pub(super) original: &'a Scenario,
     /// The control to bring into view, until it has been drawn.
-    pub(super) wanted: Option<Parameter>,
+    pub(super) revealed: Option<Parameter>,
     /// Units.
     pub(super) settings: Settings,
 }
@@ -64,8 +64,8 @@ fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
         }
         let slider = ui.add(slider).labelled_by(name.id);
         gestures::scrolls_or_turns(&slider);
-        if sheet.wanted == Some(field.parameter) {
-            sheet.wanted = None;
+        if sheet.revealed == Some(field.parameter) {
+            sheet.revealed = None;
             slider.request_focus();
             slider.scroll_to_me(Some(Align::Center));
         }

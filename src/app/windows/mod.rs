@@ -8,7 +8,8 @@ mod validation;
 use eframe::egui::{Align2, Context, Id, LayerId, Order, ScrollArea, Ui, Window};
 
 use crate::app::command::Command;
-use crate::app::state::{UiState, Windows};
+use crate::app::settings::Settings;
+use crate::app::state::Windows;
 
 /// What windows keep from frame to frame.
 #[derive(Default)]
@@ -21,29 +22,33 @@ pub struct Runtime {
 #[cfg(target_arch = "wasm32")]
 impl Runtime {
     /// What a screen reader is told of the windows that are open.
-    pub fn text(&self, state: &UiState) -> Option<String> {
-        (state.windows.validation && self.validation.is_done()).then(|| self.validation.summary())
+    pub fn text(&self, open: Windows) -> Option<String> {
+        (open.validation && self.validation.is_done()).then(|| self.validation.summary())
     }
 }
 
 /// Draws those that are open.
-pub fn ui(context: &Context, state: &mut UiState, runtime: &mut Runtime, commands: &mut Vec<Command>) {
-    let mut open = state.windows;
-    window(context, "Settings", 560.0, &mut open.settings, |ui| settings::ui(ui, &mut state.settings));
+pub fn ui(
+    runtime: &mut Runtime,
+    open: &mut Windows,
+    settings: &mut Settings,
+    context: &Context,
+    commands: &mut Vec<Command>,
+) {
+    window(context, "Settings", 560.0, &mut open.settings, |ui| settings::ui(settings, ui));
     window(context, "Keyboard shortcuts", 560.0, &mut open.shortcuts, shortcuts::ui);
-    window(context, "Theory", theory::WIDEST, &mut open.theory, |ui| theory::ui(ui, &mut runtime.theory));
+    window(context, "Theory", theory::WIDEST, &mut open.theory, |ui| theory::ui(&mut runtime.theory, ui));
     window(context, "Validation", 700.0, &mut open.validation, |ui| {
-        validation::ui(ui, &mut runtime.validation, commands);
+        validation::ui(&mut runtime.validation, ui, commands);
     });
     if !open.validation {
         // Whoever opens it again wants to see it done again.
         runtime.validation = validation::Run::default();
     }
-    state.windows = open;
 }
 
 /// Closes the window that is in front of all others, if one is open.
-pub fn close_foremost(context: &Context, open: &mut Windows) -> bool {
+pub fn close_foremost(open: &mut Windows, context: &Context) -> bool {
     let layers: Vec<LayerId> = context.memory(|memory| memory.layer_ids().collect());
     let Windows { settings, shortcuts, theory, validation } = open;
     let all =

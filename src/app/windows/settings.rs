@@ -5,7 +5,7 @@ use eframe::egui::{ComboBox, Grid, Ui};
 use crate::app::settings::{FrequencyUnit, MotionChoice, Settings, StressUnit, ThemeChoice};
 
 /// Draws them; what is chosen counts at once.
-pub fn ui(ui: &mut Ui, settings: &mut Settings) {
+pub fn ui(settings: &mut Settings, ui: &mut Ui) {
     Grid::new("settings").num_columns(2).spacing([16.0, 8.0]).show(ui, |ui| {
         let themes =
             [(ThemeChoice::System, "As the system"), (ThemeChoice::Light, "Light"), (ThemeChoice::Dark, "Dark")];

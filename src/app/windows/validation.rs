@@ -68,7 +68,7 @@ fn passes(answer: &CheckAnswer) -> bool {
 }
 
 /// Draws the checks, and asks for the next one.
-pub fn ui(ui: &mut Ui, run: &mut Run, commands: &mut Vec<Command>) {
+pub fn ui(run: &mut Run, ui: &mut Ui, commands: &mut Vec<Command>) {
     run.step(commands);
     ui.label(
         "Numbers that are known from closed forms or from programs that share nothing with this one, beside what \

@@ -17,7 +17,7 @@ use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
 use crate::app::round::roundest;
 use crate::app::settings::Settings;
-use crate::app::state::{Camera, MapQuantity, MapView, UiState};
+use crate::app::state::{Camera, MapQuantity, MapView};
 use crate::app::studies::{Known, Shown, Stage, Studies};
 use crate::app::{digits, series};
 use crate::compute::protocol::{Revision, Topic};
@@ -105,21 +105,28 @@ fn asks_growth(known: &Known) -> bool {
 }
 
 /// Switch, quantity, direction and progress, in the canvas's upper right corner.
-pub fn controls(ui: &mut Ui, rect: Rect, state: &mut UiState, studies: &Studies, commands: &mut Vec<Command>) {
+pub fn controls(
+    map: &mut MapView,
+    camera: &mut Camera,
+    ui: &mut Ui,
+    rect: Rect,
+    studies: &Studies,
+    commands: &mut Vec<Command>,
+) {
     let room = Rect::from_min_max(rect.min + Vec2::new(8.0, 6.0), rect.max - Vec2::new(8.0, 6.0));
     let layout = Layout::top_down(Align::Max);
     ui.scope_builder(UiBuilder::new().max_rect(room).layout(layout), |ui| {
         ui.allocate_ui_with_layout(Vec2::new(room.width(), 20.0), Layout::right_to_left(Align::Center), |ui| {
             let text = "Colours the workspace under the robot, point by point. A click on it moves the platform.";
-            ui.toggle_value(&mut state.map.on, "Map").explained(text);
-            if state.map.on {
-                choices(ui, &mut state.map);
+            ui.toggle_value(&mut map.on, "Map").explained(text);
+            if map.on {
+                choices(map, ui);
             }
-            if state.camera != Camera::default() && ui.button("Show all").clicked() {
-                state.camera = Camera::default();
+            if *camera != Camera::default() && ui.button("Show all").clicked() {
+                *camera = Camera::default();
             }
         });
-        if state.map.on {
+        if map.on {
             let row = Vec2::new(room.width(), 20.0);
             ui.allocate_ui_with_layout(row, Layout::right_to_left(Align::Center), |ui| {
                 progress(ui, Topic::Map, studies, commands);
@@ -128,7 +135,7 @@ pub fn controls(ui: &mut Ui, rect: Rect, state: &mut UiState, studies: &Studies,
     });
 }
 
-fn choices(ui: &mut Ui, map: &mut MapView) {
+fn choices(map: &mut MapView, ui: &mut Ui) {
     let name = |worst| if worst { "Worst direction" } else { "Motion's direction" };
     let list = ComboBox::from_id_salt("map direction").width(126.0).selected_text(name(map.worst));
     let list = list.show_ui(ui, |ui| {

@@ -23,7 +23,7 @@ pub struct Pictures {
 }
 
 /// Draws the page.
-pub fn ui(ui: &mut Ui, pictures: &mut Pictures) {
+pub fn ui(pictures: &mut Pictures, ui: &mut Ui) {
     let pixels_per_point = ui.pixels_per_point();
     if pictures.of_parts.is_empty() || pictures.pixels_per_point.total_cmp(&pixels_per_point).is_ne() {
         let of_parts = PAGE.iter().map(|part| upload(ui.ctx(), part, pixels_per_point)).collect();
