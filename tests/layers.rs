@@ -331,8 +331,7 @@ fn statements(code: &[String]) -> Vec<String> {
         }
         open = !line.contains(';');
     }
-    statements.iter_mut().for_each(|statement| *statement = statement.replace([';', ' ', '\n'], ""));
-    statements
+    statements.iter().map(|statement| statement.replace([';', ' ', '\n'], "")).collect()
 }
 
 /// The names that a `use` tree brings in, each with its path.

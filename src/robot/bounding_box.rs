@@ -50,9 +50,6 @@ impl BoundingBox {
 
 #[cfg(test)]
 mod tests {
-    // Coordinates are copied.
-    #![expect(clippy::float_cmp)]
-
     use super::*;
 
     #[test]
