@@ -127,7 +127,7 @@ pub struct RobotSpec {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     spec: RobotSpec,
-    pair: [usize; 2],
+    equilibrium: Vec<usize>,
 }
 
 /// One thing wrong with an input: where, what was found, what is allowed.
@@ -316,21 +316,19 @@ impl Robot {
         if !ELEMENTS.contains(&spec.elements) {
             faults.push(Fault::new("elements_per_cable", spec.elements, Allowed::Whole(ELEMENTS)));
         }
-        let pair = check_cables(&spec.cables, &mut faults);
-        match (pair, faults.is_empty()) {
-            (Some(pair), true) => Ok(Self { spec, pair }),
-            _ => Err(Faults(faults)),
-        }
+        let equilibrium = check_cables(&spec.cables, &mut faults);
+        if faults.is_empty() { Ok(Self { spec, equilibrium }) } else { Err(Faults(faults)) }
     }
 
-    /// The two cables at equilibrium, 0-based, in rising order.
-    pub fn pair(&self) -> [usize; 2] {
-        self.pair
+    /// The cables at equilibrium, which hold the platform: as many as it has degrees of freedom, two for a point. 0-based,
+    /// in rising order.
+    pub fn equilibrium(&self) -> &[usize] {
+        &self.equilibrium
     }
 
     /// The prescribed (stiffening) cables, 0-based.
     pub fn prescribed(&self) -> impl Iterator<Item = usize> {
-        (0..self.spec.cables.len()).filter(|i| !self.pair.contains(i))
+        (0..self.spec.cables.len()).filter(|i| !self.equilibrium.contains(i))
     }
 
     /// EA in newtons.
@@ -365,8 +363,11 @@ fn check_products(spec: &RobotSpec, faults: &mut Vec<Fault>) {
     }
 }
 
-/// Checks number, kinds and anchors of the cables; the two at equilibrium where there are just two.
-fn check_cables(cables: &[Cable], faults: &mut Vec<Fault>) -> Option<[usize; 2]> {
+/// The degrees of freedom of a platform that is a point.
+const DOF: usize = 2;
+
+/// Checks number, kinds and anchors of the cables; gives those at equilibrium.
+fn check_cables(cables: &[Cable], faults: &mut Vec<Fault>) -> Vec<usize> {
     if !CABLES.contains(&cables.len()) {
         let allowed = format!("{} to {} cables", CABLES.start(), CABLES.end());
         faults.push(Fault::new("cables", format!("a list of {}", cables.len()), allowed));
@@ -382,12 +383,11 @@ fn check_cables(cables: &[Cable], faults: &mut Vec<Fault>) -> Option<[usize; 2]>
     }
     let at_equilibrium: Vec<usize> =
         (0..cables.len()).filter(|&i| cables[i].tension == TensionLaw::Equilibrium).collect();
-    if let [a, b] = at_equilibrium[..] {
-        return Some([a, b]);
+    if at_equilibrium.len() != DOF {
+        let value = format!("{} cables with tension \"equilibrium\"", at_equilibrium.len());
+        faults.push(Fault::new("cables", value, "exactly two with tension \"equilibrium\""));
     }
-    let value = format!("{} cables with tension \"equilibrium\"", at_equilibrium.len());
-    faults.push(Fault::new("cables", value, "exactly two with tension \"equilibrium\""));
-    None
+    at_equilibrium
 }
 
 /// Where the platform is and how it moves: at constant velocity, quasi-statically.

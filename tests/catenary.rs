@@ -48,7 +48,7 @@ impl Hanging {
         let at_rest = vec![LengthRates { first: 0.0, second: 0.0 }; robot.cables.len()];
         let vibration = Vibration::new(&robot, &statics, &at_rest).expect("of the same robot");
         let own = vec![vibration.chains()[2].clone()];
-        let alone = Vibration::of_cables(own, Hub::Fixed, robot.damping, false).expect("a cable");
+        let alone = Vibration::of_cables(own, Hub::fixed(1), robot.damping, false).expect("a cable");
         (statics.cables[2].clone(), alone)
     }
 

@@ -12,6 +12,7 @@ use std::time::Instant;
 
 use common::hung::Hung;
 use common::judge::{Drawn, Verdict, judge_critical_speed, judge_crossing_closely, judge_spectrum};
+use common::pair;
 use common::random::{config, extreme_robot, moving_robot};
 use common::statics::{Pose, check_continuous, check_statics, check_verdict, load, pose, straight_tensions};
 use proptest::prelude::*;
@@ -286,7 +287,7 @@ fn on_the_line_between_two_anchors() {
         at(position, &motion)
     });
     let judge = |robot: &Robot, motion: &Motion, tally: &mut Tally| {
-        let [a, b] = robot.pair().map(|i| robot.cables[i].anchor - motion.position());
+        let [a, b] = pair(robot).map(|i| robot.cables[i].anchor - motion.position());
         if a + b == Vec2::zeros() {
             let failure = mechanics::solve(robot, motion.position()).expect_err("a pair on one line");
             let prescribed = robot.prescribed().all(|i| failure.cables[i].is_some());
@@ -305,14 +306,14 @@ fn on_the_line_between_two_anchors() {
 fn beside_the_line_of_the_equilibrium_cables() {
     let robots =
         (extreme_robot(2..6), -17.0..-2.0, 0.1..0.9).prop_map(|((robot, motion), exponent, part): (_, f64, f64)| {
-            let [a, b] = robot.pair().map(|i| robot.cables[i].anchor);
+            let [a, b] = pair(&robot).map(|i| robot.cables[i].anchor);
             let across = Vec2::new(a.y - b.y, b.x - a.x).normalize() * 10.0_f64.powf(exponent);
             let side = if motion.speed() < 4.0 { across } else { -across };
             let motion = at(a + (b - a) * part + side, &motion);
             (robot, motion)
         });
     let judge = |robot: &Robot, motion: &Motion, tally: &mut Tally| {
-        let [a, b] = robot.pair().map(|i| (robot.cables[i].anchor - motion.position()).normalize());
+        let [a, b] = pair(robot).map(|i| (robot.cables[i].anchor - motion.position()).normalize());
         // Half a rounding of each chord's coordinates, of its length and of both products.
         let side_known = a.perp(&b).abs() > 4.0 * f64::EPSILON;
         let before = tally.of("statics");
@@ -432,7 +433,7 @@ fn check_border(robot: &Robot, mut inside: Vec2, mut outside: Vec2) -> &'static 
             let load = load(robot, robot.prescribed().map(|i| &statics.cables[i]));
             let tensions = straight_tensions(robot, inside, load);
             let weaker = tensions[0].min(tensions[1]) / tensions[0].max(tensions[1]);
-            let [a, b] = robot.pair().map(|i| (robot.cables[i].anchor - inside).normalize());
+            let [a, b] = pair(robot).map(|i| (robot.cables[i].anchor - inside).normalize());
             // It falls to zero over metres, faster only where a prescribed cable is about to go slack; or both rise beyond all
             // bounds towards the line of the anchors, behind which they push.
             assert!(weaker < 1e-3 || a.perp(&b).abs() < 1e-6, "{tensions:?} at {inside:?}, but outside {reason}");

@@ -2,10 +2,10 @@
 
 mod common;
 
-use common::close;
 use common::hung::{self, Hung};
 use common::random::{config, mirrored, moving_robot, statics};
 use common::statics::check_statics;
+use common::{close, pair};
 use proptest::prelude::*;
 use tautline::mechanics::{self, length_rates};
 use tautline::robot::{TensionLaw, Vec2};
@@ -110,7 +110,7 @@ proptest! {
                     "cable {}: {} m and {length} m both have the tension", i + 1, shape.length);
             }
         }
-        let pair = robot.pair();
+        let pair = pair(&robot);
         let curves = pair.map(|i| law.curve(robot.cables[i].anchor - platform));
         let ours = [0, 1].map(|k| hung::place(&curves[k], found.cables[pair[k]].length));
         // Beyond the curves: more than 1e5 N or thrice the length of the chord.

@@ -7,9 +7,9 @@ mod common;
 use std::f64::consts::{PI, TAU};
 
 use common::close;
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix2};
 use num_dual::{DualNum, first_derivative};
-use tautline::mechanics::{Block, Chain, Element, Hub, Material, Vibration, elastic, flow_stiffness, mass, transfer};
+use tautline::mechanics::{Chain, Element, Hub, Material, Stiffness, Vibration};
 use tautline::robot::{Damping, Linearisation, Strain, Vec2};
 use tautline::stability::{CriticalSearch, Eigenproblem, Kind, Method, Outcome};
 
@@ -24,17 +24,16 @@ fn wave_speed() -> f64 {
     (TENSION / MATERIAL.stretch(TENSION) / MU).sqrt()
 }
 
+/// An element of the unstretched length l (m) whose material does not move.
+fn element(l: f64, linearisation: Linearisation) -> Element {
+    Element::at_rest(MU, l, Stiffness::new(MATERIAL, linearisation, Vec2::new(TENSION, 0.0)))
+}
+
 /// A string whose material flows from one fixed end to the other.
 fn travelling(n: usize, damping: Damping, linearisation: Linearisation) -> Vibration {
-    let l = LENGTH / n as f64;
-    let element = Element {
-        mass: mass(MU, l),
-        transfer: transfer(MU, [1.0, 1.0]),
-        flow: flow_stiffness(MU, l, [1.0, 1.0], [0.0, 0.0]),
-        elastic: elastic(MATERIAL, linearisation, l, Vec2::new(TENSION, 0.0)),
-    };
+    let element = element(LENGTH / n as f64, linearisation).with_inflow([1.0, 1.0], [0.0, 0.0]);
     let chain = Chain::new(vec![element; n]).expect("elements");
-    Vibration::of_cables(vec![chain], Hub::Fixed, damping, linearisation == Linearisation::Secant).expect("a cable")
+    Vibration::of_cables(vec![chain], Hub::fixed(1), damping, linearisation == Linearisation::Secant).expect("a cable")
 }
 
 #[test]
@@ -104,7 +103,7 @@ impl Reeled {
     }
 
     /// Assembles what `block` gives for element k, ends removed.
-    fn assemble(&self, block: impl Fn(usize) -> Block) -> DMatrix<f64> {
+    fn assemble(&self, block: impl Fn(usize) -> Matrix2<f64>) -> DMatrix<f64> {
         let mut matrix = DMatrix::zeros(self.n + 1, self.n + 1);
         for k in 0..self.n {
             let mut part = matrix.view_mut((k, k), (2, 2));
@@ -124,17 +123,18 @@ impl Reeled {
         let n = self.n as f64;
         let l = self.length(t) / n;
         let inflow = |k: usize| [-(k as f64) * self.rate / n, -((k + 1) as f64) * self.rate / n];
-        let string = elastic(MATERIAL, Linearisation::Secant, l, Vec2::new(TENSION, 0.0))[(0, 0)];
-        let flow = self.assemble(|k| transfer(MU, inflow(k)));
-        let stiffness =
-            self.assemble(|k| flow_stiffness(MU, l, inflow(k), [0.0, 0.0]) + Block::new(1.0, -1.0, -1.0, 1.0) * string);
+        let element = |k| element(l, Linearisation::Secant).with_inflow(inflow(k), [0.0, 0.0]);
+        let string = Matrix2::new(1.0, -1.0, -1.0, 1.0) * element(0).elastic()[(0, 0)];
+        let flow = self.assemble(|k| element(k).transfer());
+        let stiffness = self.assemble(|k| element(k).flow_stiffness() + string);
         // M is μ l times a constant matrix.
         -mass_shape.solve(&(flow * u + stiffness * q)) / (MU * l)
     }
 
     /// Integrates from (q, q̇) = (q, u) at t = 0 to `end` by Runge and Kutta's method of order 4.
     fn integrate(&self, mut q: DVector<f64>, mut u: DVector<f64>, end: f64, steps: u32) -> DVector<f64> {
-        let mass_shape = self.assemble(|_| mass(1.0, 1.0)).cholesky().expect("a mass matrix");
+        let shape = Matrix2::new(2.0, 1.0, 1.0, 2.0) / 6.0;
+        let mass_shape = self.assemble(|_| shape).cholesky().expect("a mass matrix");
         let a = |t: f64, q: &DVector<f64>, u: &DVector<f64>| self.acceleration(&mass_shape, t, q, u);
         let h = end / f64::from(steps);
         for step in 0..steps {

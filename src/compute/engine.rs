@@ -557,7 +557,7 @@ mod tests {
         // The search's own matrices; the pose has been computed from the others.
         let waiting = engine.waiting.as_mut().expect("a pose");
         let mut local = Local::clone(&waiting.local);
-        local.vibration.chains[1].elements_mut()[2].elastic *= f64::NAN;
+        local.vibration.chains[1].elements_mut()[2].stiffness.across = f64::NAN;
         waiting.local = Arc::new(local);
         (pose.report, std::iter::from_fn(|| engine.work()).flatten().collect())
     }

@@ -75,19 +75,26 @@ impl<D: DualNum<Primitive = f64> + Copy> CableModel<D> {
         [dx, dy, (fx * fx + fy * fy).sqrt() - tension]
     }
 
-    /// Residual of the equilibrium pair with the unknowns (t₀, L) of both: the distances of the ends from their
-    /// anchors (m), and the excess of their force on the platform over `load` (N).
-    pub fn pair_residual(&self, position: [D; 2], anchors: [Vec2; 2], load: [D; 2], z: [D; 6]) -> [D; 6] {
-        let mut residual = [D::from(0.0); 6];
-        residual[4] = -load[0];
-        residual[5] = -load[1];
-        for (i, anchor) in anchors.into_iter().enumerate() {
+    /// Residual of the cables at equilibrium with the unknowns (t₀, L) of each, N in all: the distances of the ends from
+    /// their anchors (m), and the excess of their force on the platform over `load` (N). There is one cable to an anchor.
+    pub fn equilibrium_residual<const N: usize>(
+        &self,
+        position: [D; 2],
+        anchors: &[Vec2],
+        load: [D; 2],
+        z: [D; N],
+    ) -> [D; N] {
+        let mut residual = [D::from(0.0); N];
+        let balance = 2 * anchors.len();
+        residual[balance] = -load[0];
+        residual[balance + 1] = -load[1];
+        for (i, &anchor) in anchors.iter().enumerate() {
             let (t0, length) = ([z[3 * i], z[3 * i + 1]], z[3 * i + 2]);
             let miss = self.miss(position, anchor, t0, length);
             let force = self.platform_force(t0, length);
             for j in 0..2 {
                 residual[2 * i + j] = miss[j];
-                residual[4 + j] += force[j];
+                residual[balance + j] += force[j];
             }
         }
         residual

@@ -5,33 +5,150 @@
 //! w₁ = −(k+1) l̇ for element k. Equal constant w₀ = w₁ is the travelling string. Every matrix here acts on x and y
 //! alike (⊗ I₂) but the elastic one. All are for plain and dual numbers.
 //!
+//! An element keeps the causes. Its matrices follow from them.
+//!
 //! Source: docs/theory.md section 4, after Du, Cui, Bao and Qiu (2015).
 
 use nalgebra::{Matrix2, Vector2};
-use num_dual::DualNum;
+use num_dual::{Dual64, DualNum};
 
 use crate::mechanics::Material;
 use crate::robot::Linearisation;
 
-/// A 2 × 2 matrix over the element's two nodes, rows first.
-pub type Block = Matrix2<f64>;
-
-/// M = μ l [[1/3, 1/6], [1/6, 1/3]], in kg, for μ in kg/m and l in m.
-pub fn mass<D: DualNum<Primitive = f64> + Copy>(mu: D, l: D) -> Matrix2<D> {
-    let [third, sixth] = [3.0, 6.0].map(|part| mu * l / part);
-    Matrix2::new(third, sixth, sixth, third)
+/// How an element resists a displacement of one of its ends: A = across I₂ + (along − across) e eᵀ, in newtons.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stiffness<D = f64> {
+    /// The element's direction e, a unit vector.
+    pub direction: Vector2<D>,
+    /// A's eigenvalue along e, in N: N'(λ) by the tangent, N/λ by the secant.
+    pub along: D,
+    /// A's eigenvalue across e, in N: N/λ.
+    pub across: D,
 }
 
-/// The "energy transfer" matrix C = 2 μ [[−a, a], [−b, b]], in kg/s, with a = w₀/3 + w₁/6 and b = w₀/6 + w₁/3.
-pub fn transfer<D: DualNum<Primitive = f64> + Copy>(mu: D, w: [D; 2]) -> Matrix2<D> {
-    convection(mu * 2.0, w)
+impl<D: DualNum<Primitive = f64> + Copy> Stiffness<D> {
+    /// That of an element of `material` which carries the `force` (N, not zero). Paper's Eqs. 14 and 15.
+    pub fn new(material: Material<D>, linearisation: Linearisation, force: Vector2<D>) -> Self {
+        let tension = (force.x * force.x + force.y * force.y).sqrt();
+        let stretch = material.stretch(tension);
+        let across = tension / stretch;
+        let along = match linearisation {
+            Linearisation::Secant => across,
+            Linearisation::Tangent => material.tangent(stretch),
+        };
+        Self { direction: force / tension, along, across }
+    }
+
+    /// A in newtons, over x and y.
+    pub fn matrix(&self) -> Matrix2<D> {
+        let e = self.direction;
+        Matrix2::from_diagonal_element(self.across) + e * e.transpose() * (self.along - self.across)
+    }
 }
 
-/// `K_dyn` = μ [[−a', a'], [−b', b']] − (μ/l) (w₀² + w₀ w₁ + w₁²)/3 [[1, −1], [−1, 1]], in N/m, with a' and b' made of
-/// the rates ẇ₀ and ẇ₁ as a and b of [`transfer`] are made of w₀ and w₁.
-pub fn flow_stiffness<D: DualNum<Primitive = f64> + Copy>(mu: D, l: D, w: [D; 2], w_rate: [D; 2]) -> Matrix2<D> {
-    let square = mu / l * (w[0] * w[0] + w[0] * w[1] + w[1] * w[1]) / 3.0;
-    convection(mu, w_rate) - Matrix2::new(square, -square, -square, square)
+/// A cable element at a speed of the platform of v = 1 m/s.
+///
+/// Its inflow grows with the speed v, and the rate of its inflow with v². Where the platform also accelerates at a, the
+/// rate is v² `inflow_rate` + a `inflow`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Element<D = f64> {
+    /// μ in kg/m.
+    pub mass_per_length: D,
+    /// l in m, unstretched.
+    pub length: D,
+    /// w₀ and w₁ at v = 1 m/s, in m/s: the first derivative of the cable's length along the motion is in them.
+    pub inflow: [D; 2],
+    /// ẇ₀ and ẇ₁ at v = 1 m/s and without acceleration, in m/s²: the second derivative of the length.
+    pub inflow_rate: [D; 2],
+    /// Of the element per unit strain: divide by l for that between its ends.
+    pub stiffness: Stiffness<D>,
+}
+
+impl<D: DualNum<Primitive = f64> + Copy> Element<D> {
+    /// An element of a cable whose material does not move, for μ in kg/m and l in m.
+    pub fn at_rest(mass_per_length: D, length: D, stiffness: Stiffness<D>) -> Self {
+        let still = [D::from(0.0); 2];
+        Self { mass_per_length, length, inflow: still, inflow_rate: still, stiffness }
+    }
+
+    /// The same element with material that moves, `inflow` in m/s and its rate in m/s².
+    #[must_use]
+    pub fn with_inflow(self, inflow: [D; 2], inflow_rate: [D; 2]) -> Self {
+        Self { inflow, inflow_rate, ..self }
+    }
+
+    /// μ l in kg.
+    pub fn total_mass(&self) -> D {
+        self.mass_per_length * self.length
+    }
+
+    /// M = μ l [[1/3, 1/6], [1/6, 1/3]] over the two nodes, in kg.
+    pub fn mass(&self) -> Matrix2<D> {
+        let [third, sixth] = [3.0, 6.0].map(|part| self.total_mass() / part);
+        Matrix2::new(third, sixth, sixth, third)
+    }
+
+    /// The "energy transfer" matrix C = 2 μ [[−a, a], [−b, b]] over the two nodes, with a = w₀/3 + w₁/6 and
+    /// b = w₀/6 + w₁/3, in kg/s.
+    pub fn transfer(&self) -> Matrix2<D> {
+        convection(self.mass_per_length * 2.0, self.inflow)
+    }
+
+    /// `K_dyn` = μ [[−a', a'], [−b', b']] − (μ/l) (w₀² + w₀ w₁ + w₁²)/3 [[1, −1], [−1, 1]] over the two nodes, in N/m;
+    /// a' and b' are made of the rates ẇ₀ and ẇ₁ as a and b of [`Self::transfer`] are made of w₀ and w₁.
+    pub fn flow_stiffness(&self) -> Matrix2<D> {
+        let [w0, w1] = self.inflow;
+        let square = self.mass_per_length / self.length * (w0 * w0 + w0 * w1 + w1 * w1) / 3.0;
+        convection(self.mass_per_length, self.inflow_rate) - Matrix2::new(square, -square, -square, square)
+    }
+
+    /// A/l of the elastic stiffness K = [[A, −A], [−A, A]]/l, in N/m, over x and y.
+    pub fn elastic(&self) -> Matrix2<D> {
+        self.stiffness.matrix() / self.length
+    }
+
+    /// The eigenvalues of [`Self::elastic`] in N/m, along the element and across it.
+    pub fn springs(&self) -> [D; 2] {
+        [self.stiffness.along / self.length, self.stiffness.across / self.length]
+    }
+}
+
+/// The matrices of an element, or their derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Matrices {
+    /// M over the two nodes, in kg.
+    pub mass: Matrix2<f64>,
+    /// C at v = 1 m/s over the two nodes.
+    pub transfer: Matrix2<f64>,
+    /// `K_dyn` at v = 1 m/s over the two nodes.
+    pub flow: Matrix2<f64>,
+    /// A/l over x and y, in N/m.
+    pub elastic: Matrix2<f64>,
+}
+
+impl Element {
+    /// All matrices of the element.
+    pub fn matrices(&self) -> Matrices {
+        self.each_matrix(|entry| entry)
+    }
+}
+
+impl Element<Dual64> {
+    /// What the parameter, along which the dual numbers are, changes in the matrices.
+    pub fn derivatives(&self) -> Matrices {
+        self.each_matrix(|entry| entry.eps)
+    }
+}
+
+impl<D: DualNum<Primitive = f64> + Copy> Element<D> {
+    fn each_matrix(&self, part: impl Fn(D) -> f64) -> Matrices {
+        Matrices {
+            mass: self.mass().map(&part),
+            transfer: self.transfer().map(&part),
+            flow: self.flow_stiffness().map(&part),
+            elastic: self.elastic().map(&part),
+        }
+    }
 }
 
 fn convection<D: DualNum<Primitive = f64> + Copy>(mu: D, w: [D; 2]) -> Matrix2<D> {
@@ -40,42 +157,23 @@ fn convection<D: DualNum<Primitive = f64> + Copy>(mu: D, w: [D; 2]) -> Matrix2<D
     Matrix2::new(-a, a, -b, b)
 }
 
-/// A/l of the elastic stiffness [[A, −A], [−A, A]]/l, in N/m, over x and y, for an element of unstretched length l
-/// that carries the force t (N, not zero).
-///
-/// Tangent: A = (N/λ)(I − e eᵀ) + N'(λ) e eᵀ with e = t/N. Secant: A = (N/λ) I. Paper's Eqs. 14 and 15.
-pub fn elastic<D: DualNum<Primitive = f64> + Copy>(
-    material: Material<D>,
-    linearisation: Linearisation,
-    l: D,
-    t: Vector2<D>,
-) -> Matrix2<D> {
-    let force = (t.x * t.x + t.y * t.y).sqrt();
-    let stretch = material.stretch(force);
-    let across = force / stretch;
-    let secant = Matrix2::from_diagonal_element(across);
-    let a = match linearisation {
-        Linearisation::Secant => secant,
-        Linearisation::Tangent => {
-            let e = t / force;
-            secant + e * e.transpose() * (material.tangent(stretch) - across)
-        }
-    };
-    a / l
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::robot::{Strain, Vec2};
     use proptest::prelude::*;
 
+    /// An element whose elastic stiffness does not matter.
+    fn element(mu: f64, l: f64) -> Element {
+        Element::at_rest(mu, l, Stiffness { direction: Vec2::x(), along: 1.0, across: 1.0 })
+    }
+
     proptest! {
         /// `K_dyn` · 1 = 0: a translation of the whole element meets no force.
         #[test]
         fn flow_stiffness_annihilates_translation(mu in 0.01..10.0, l in 0.01..10.0, w0 in -20.0..20.0, w1 in -20.0..20.0,
                                                   dw0 in -20.0..20.0, dw1 in -20.0..20.0) {
-            let k = flow_stiffness(mu, l, [w0, w1], [dw0, dw1]);
+            let k = element(mu, l).with_inflow([w0, w1], [dw0, dw1]).flow_stiffness();
             let force = k * Vector2::new(1.0, 1.0);
             prop_assert!(force.amax() <= 1e-15 * k.amax(), "{force}");
         }
@@ -88,11 +186,9 @@ mod tests {
             for k in 0..n {
                 let at = |value: f64| Vector2::new(k as f64 * value, (k + 1) as f64 * value);
                 let w = |value: f64| [-(k as f64) * value, -((k + 1) as f64) * value];
-                let parts = [
-                    mass(mu, l) * at(curvature),
-                    transfer(mu, w(rate)) * at(rate),
-                    flow_stiffness(mu, l, w(rate), w(curvature)) * at(l),
-                ];
+                let element = element(mu, l).with_inflow(w(rate), w(curvature));
+                let parts =
+                    [element.mass() * at(curvature), element.transfer() * at(rate), element.flow_stiffness() * at(l)];
                 for part in parts {
                     size = size.max(part.amax());
                     force[k] += part.x;
@@ -112,13 +208,25 @@ mod tests {
             let t = Vec2::new(tx, ty);
             let span = t.normalize() * (material.stretch(t.norm()) * l);
             let force = |d: Vec2| d.normalize() * material.force(d.norm() / l);
-            let k = elastic(material, Linearisation::Tangent, l, t);
+            let k = Element::at_rest(0.4, l, Stiffness::new(material, Linearisation::Tangent, t)).elastic();
             let h = 1e-5 * l;
             for step in [Vec2::x(), Vec2::y()] {
                 let slope = (force(span + step * h) - force(span - step * h)) / (2.0 * h);
                 // Central differences: h² of the curvature plus rounding over h.
                 prop_assert!((slope - k * step).amax() < 1e-7 * k.amax(), "{slope} {}", k * step);
             }
+        }
+
+        /// The eigenvalues of A/l are those that are kept, along the element and across it.
+        #[test]
+        fn springs_are_the_eigenvalues_of_the_elastic_stiffness(angle in 0.0..7.0, along in 1.0..1e4, across in 1.0..1e3, l in 0.1..3.0) {
+            let direction = Vec2::new(f64::cos(angle), f64::sin(angle));
+            let element = Element::at_rest(0.4, l, Stiffness { direction, along, across });
+            let [along, across] = element.springs();
+            let normal = Vec2::new(-direction.y, direction.x);
+            let k = element.elastic();
+            let off = (k * direction - direction * along).amax().max((k * normal - normal * across).amax());
+            prop_assert!(off <= 1e-14 * along.max(across), "{k} {along} {across}");
         }
     }
 }

@@ -5,28 +5,15 @@
 //! their rates with v². K is the elastic part alone. Winch nodes do not move. The matrices are never formed here:
 //! the problem is kept as chains of elements that meet in the platform. docs/theory.md section 7.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Vector2;
 use num_dual::{Dual2, Dual64, DualNum};
 
+use super::arrow::Arrow;
 use super::cable::CableModel;
-use super::element;
 use super::motion::paths;
 use super::parameters::{Knob, Parameters};
-use crate::mechanics::{LengthRates, Material, Statics};
+use crate::mechanics::{CableShape, Element, Hub, LengthRates, Material, Statics, Stiffness};
 use crate::robot::{Damping, Linearisation, Robot, Vec2};
-
-/// One element's parts of M, C, D (over its two nodes) and K (A/l, over x and y).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Element<D = f64> {
-    /// M, in kg.
-    pub mass: Matrix2<D>,
-    /// C at v = 1 m/s, in kg/m.
-    pub transfer: Matrix2<D>,
-    /// D: `K_dyn` at v = 1 m/s, in kg/m².
-    pub flow: Matrix2<D>,
-    /// A/l of K = [[A, −A], [−A, A]]/l, in N/m.
-    pub elastic: Matrix2<D>,
-}
 
 impl<D: DualNum<Primitive = f64> + Copy> Element<D> {
     /// The elements of one cable of unstretched length L from the platform to the winch, given the force of each.
@@ -43,21 +30,9 @@ impl<D: DualNum<Primitive = f64> + Copy> Element<D> {
         forces.into_iter().enumerate().map(move |(k, t)| {
             // Inflow of element k and its rate at v = 1: w = −k l̇, −(k+1) l̇ with l̇ = L'/n, l̈ = L''/n.
             let inflow = |derivative: D| [derivative * -(k as f64) / n, derivative * -((k + 1) as f64) / n];
-            Self {
-                mass: element::mass(mu, l),
-                transfer: element::transfer(mu, inflow(rates.first)),
-                flow: element::flow_stiffness(mu, l, inflow(rates.first), inflow(rates.second)),
-                elastic: element::elastic(material, robot.linearisation, l, t),
-            }
+            let stiffness = Stiffness::new(material, robot.linearisation, t);
+            Self::at_rest(mu, l, stiffness).with_inflow(inflow(rates.first), inflow(rates.second))
         })
-    }
-}
-
-impl Element<Dual64> {
-    fn derivative(&self) -> Element {
-        let [mass, transfer, flow, elastic] =
-            [self.mass, self.transfer, self.flow, self.elastic].map(|matrix| matrix.map(|entry| entry.eps));
-        Element { mass, transfer, flow, elastic }
     }
 }
 
@@ -68,23 +43,23 @@ impl Element<Dual64> {
 /// let chain = tautline::mechanics::Chain { elements: Vec::new() };
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Chain {
-    elements: Vec<Element>,
+pub struct Chain<D = f64> {
+    elements: Vec<Element<D>>,
 }
 
-impl Chain {
+impl<D> Chain<D> {
     /// The cable of these elements; `None` where there are fewer than two, so that no node moves.
-    pub fn new(elements: Vec<Element>) -> Option<Self> {
+    pub fn new(elements: Vec<Element<D>>) -> Option<Self> {
         (elements.len() >= 2).then_some(Self { elements })
     }
 
     /// The elements from the platform to the winch.
-    pub fn elements(&self) -> &[Element] {
+    pub fn elements(&self) -> &[Element<D>] {
         &self.elements
     }
 
     /// The same to be changed, though not in number.
-    pub fn elements_mut(&mut self) -> &mut [Element] {
+    pub fn elements_mut(&mut self) -> &mut [Element<D>] {
         &mut self.elements
     }
 
@@ -94,47 +69,26 @@ impl Chain {
     }
 }
 
-/// What node 0 of all chains is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Hub {
-    /// The platform, a point mass in kg that moves.
-    Platform(f64),
-    /// A point that does not move: single cables with fixed ends, as textbooks have them.
-    Fixed,
-}
-
 /// The small-vibration problem at a pose, for every speed: one chain per cable, at least one.
+///
+/// In dual numbers it carries what a parameter changes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Vibration {
-    pub(crate) chains: Vec<Chain>,
-    pub(crate) hub: Hub,
+pub struct Vibration<D = f64> {
+    pub(crate) chains: Vec<Chain<D>>,
+    pub(crate) hub: Hub<D>,
     pub(crate) damping: Damping,
     pub(crate) isotropic: bool,
 }
 
-impl Vibration {
-    /// The problem of cables that meet in `hub`, with damping; `isotropic` tells whether every block is a multiple of I₂,
-    /// so that x and y decouple into two equal problems (secant stiffness).
-    ///
-    /// `None` where there is no cable, a platform's mass is not positive, or `isotropic` is not true.
-    pub fn of_cables(chains: Vec<Chain>, hub: Hub, damping: Damping, isotropic: bool) -> Option<Self> {
-        let heavy = match hub {
-            Hub::Platform(mass) => mass > 0.0,
-            Hub::Fixed => true,
-        };
-        let alike = |element: &Element| element.elastic == Matrix2::identity() * element.elastic[(0, 0)];
-        let sound = !isotropic || chains.iter().flat_map(Chain::elements).all(alike);
-        (heavy && sound && !chains.is_empty()).then_some(Self { chains, hub, damping, isotropic })
-    }
-
+impl<D> Vibration<D> {
     /// One chain per cable.
-    pub fn chains(&self) -> &[Chain] {
+    pub fn chains(&self) -> &[Chain<D>] {
         &self.chains
     }
 
     /// Where the chains meet.
-    pub fn hub(&self) -> Hub {
-        self.hub
+    pub fn hub(&self) -> &Hub<D> {
+        &self.hub
     }
 
     /// α and β.
@@ -147,6 +101,25 @@ impl Vibration {
         self.isotropic
     }
 
+    fn of_robot(robot: &Robot, chains: Vec<Chain<D>>, hub: Hub<D>) -> Self {
+        Self { chains, hub, damping: robot.damping, isotropic: robot.linearisation == Linearisation::Secant }
+    }
+}
+
+impl Vibration {
+    /// The problem of cables that meet in `hub`, with damping; `isotropic` tells whether every block is a multiple of I₂,
+    /// so that x and y decouple into two equal problems (secant stiffness).
+    ///
+    /// `None` where there is no cable, or not a joint for each, where a platform's mass is not positive, or `isotropic` is
+    /// not true.
+    pub fn of_cables(chains: Vec<Chain>, hub: Hub, damping: Damping, isotropic: bool) -> Option<Self> {
+        let heavy = hub.platform_mass().is_none_or(|mass| mass > 0.0);
+        let alike = |element: &Element| element.stiffness.along.to_bits() == element.stiffness.across.to_bits();
+        let sound = !isotropic || chains.iter().flat_map(Chain::elements).all(alike);
+        let joined = !chains.is_empty() && hub.joints().len() == chains.len();
+        (heavy && sound && joined).then_some(Self { chains, hub, damping, isotropic })
+    }
+
     /// The problem of `robot` at rest in `statics`, for motion with the length rates `rates`; `None` where these are not
     /// of all its cables and elements.
     pub fn new(robot: &Robot, statics: &Statics, rates: &[LengthRates]) -> Option<Self> {
@@ -156,62 +129,48 @@ impl Vibration {
             return None;
         }
         let parameters = Parameters::of(robot);
-        let chain = |(shape, &rates): (&crate::mechanics::CableShape, &LengthRates)| {
+        let chain = |(shape, &rates): (&CableShape, &LengthRates)| {
             let forces = shape.forces.iter().copied();
             Chain { elements: Element::of_cable(robot, &parameters, shape.length, rates, forces).collect() }
         };
-        Some(Self::of_chains(robot, statics.cables.iter().zip(rates).map(chain).collect(), robot.platform_mass))
+        let chains = statics.cables.iter().zip(rates).map(chain).collect();
+        Some(Self::of_robot(robot, chains, Hub::point(robot.platform_mass, cables)))
     }
 
-    /// The derivatives of M, C, K and D with respect to ln p, p the parameter `knob`, in the form of a problem; for
-    /// `robot` at rest in `statics` and motion along the unit vector `direction`. α and β are those of the robot.
+    /// Whether K is positive definite, so that the robot is stable at v = 0.
+    pub fn is_stable_at_rest(&self) -> bool {
+        let elastic = |element: &Element| {
+            let k = element.elastic();
+            [[k, -k], [-k, k]]
+        };
+        let chains = self.chains.iter().map(Chain::elements).zip(self.hub.joints().iter().cloned());
+        Arrow::factor(self.hub.stiffness().clone(), chains, elastic).is_positive_definite()
+    }
+
+    /// Number of nodes that move.
+    pub fn nodes(&self) -> usize {
+        let hub = usize::from(self.hub.dof() > 0);
+        hub + self.chains.iter().map(Chain::inner_nodes).sum::<usize>()
+    }
+}
+
+impl Vibration<Dual64> {
+    /// The problem with its derivatives with respect to ln p, p the parameter `knob`; for `robot` at rest in `statics` and
+    /// motion along the unit vector `direction`. α and β are those of the robot.
     ///
     /// Exact, by dual numbers: the change of the static shapes, of L' and of L'' is in them. `None` where the pose is
     /// singular. docs/theory.md section 12.
-    pub fn derivative(robot: &Robot, statics: &Statics, direction: Vec2, knob: Knob) -> Option<Self> {
+    pub fn along(robot: &Robot, statics: &Statics, direction: Vec2, knob: Knob) -> Option<Self> {
         let parameters = Parameters::along(robot, knob);
         let cable = CableModel::with(robot, &parameters);
         let chain = |[tx, ty, length]: [Dual2<Dual64>; 3]| {
             let mut forces = Vec::with_capacity(robot.elements);
             cable.walk([0.0.into(); 2], [tx.re, ty.re], length.re, |t, _| forces.push(t.into()));
             let rates = LengthRates { first: length.v1, second: length.v2 };
-            let elements = Element::of_cable(robot, &parameters, length.re, rates, forces);
-            Chain { elements: elements.map(|element| element.derivative()).collect() }
+            Chain { elements: Element::of_cable(robot, &parameters, length.re, rates, forces).collect() }
         };
         let chains = paths(robot, &parameters, statics, direction)?.into_iter().map(chain).collect();
-        Some(Self::of_chains(robot, chains, parameters.platform_mass.eps))
-    }
-
-    fn of_chains(robot: &Robot, chains: Vec<Chain>, platform_mass: f64) -> Self {
-        Self {
-            chains,
-            hub: Hub::Platform(platform_mass),
-            damping: robot.damping,
-            isotropic: robot.linearisation == Linearisation::Secant,
-        }
-    }
-
-    /// Whether K is positive definite, so that the robot is stable at v = 0: by elimination along the cables, whose pivots
-    /// are then all positive definite.
-    pub fn is_stable_at_rest(&self) -> bool {
-        let positive = |block: &Matrix2<f64>| block.trace() > 0.0 && block.determinant() > 0.0;
-        let mut hub = Matrix2::zeros();
-        for Chain { elements } in &self.chains {
-            let mut outer = Matrix2::zeros();
-            for pair in elements.windows(2).rev() {
-                let pivot = pair[0].elastic + pair[1].elastic - outer;
-                let Some(inverse) = pivot.try_inverse().filter(|_| positive(&pivot)) else { return false };
-                outer = pair[0].elastic * inverse * pair[0].elastic;
-            }
-            hub += elements[0].elastic - outer;
-        }
-        matches!(self.hub, Hub::Fixed) || positive(&hub)
-    }
-
-    /// Number of nodes that move.
-    pub fn nodes(&self) -> usize {
-        let hub = usize::from(matches!(self.hub, Hub::Platform(_)));
-        hub + self.chains.iter().map(Chain::inner_nodes).sum::<usize>()
+        Some(Self::of_robot(robot, chains, Hub::point(parameters.platform_mass, robot.cables.len())))
     }
 }
 
@@ -235,11 +194,13 @@ mod tests {
         let of = |chains: usize, hub, isotropic| {
             Vibration::of_cables(vibration.chains()[..chains].to_vec(), hub, robot.damping, isotropic).is_some()
         };
-        assert!(of(1, Hub::Fixed, true) && of(4, Hub::Platform(2.0), true));
-        assert!(!of(0, Hub::Fixed, true) && !of(4, Hub::Platform(0.0), true) && !of(4, Hub::Platform(f64::NAN), true));
+        assert!(of(1, Hub::fixed(1), true) && of(4, Hub::point(2.0, 4), true));
+        assert!(!of(0, Hub::fixed(0), true) && !of(4, Hub::point(2.0, 3), true), "a joint per cable, at least one");
+        assert!(!of(4, Hub::point(0.0, 4), true) && !of(4, Hub::point(f64::NAN, 4), true));
         let tangent = Robot::new(RobotSpec { linearisation: Linearisation::Tangent, ..paper_spec() }).expect("a robot");
         let planar = Vibration::new(&tangent, &statics, &rates).expect("a problem");
-        let of_planar = |isotropic| Vibration::of_cables(planar.chains.clone(), planar.hub, planar.damping, isotropic);
+        let of_planar =
+            |isotropic| Vibration::of_cables(planar.chains.clone(), planar.hub.clone(), planar.damping, isotropic);
         assert_eq!(of_planar(false).as_ref(), Some(&planar));
         assert!(of_planar(true).is_none(), "not isotropic");
         // Of another mesh, of fewer cables, and of another robot.

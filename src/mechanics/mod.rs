@@ -1,7 +1,9 @@
 //! The cable and the platform: material, element, statics, quasi-static motion, linearisation.
 
+mod arrow;
 mod cable;
 mod element;
+mod hub;
 mod linearisation;
 mod material;
 mod motion;
@@ -9,8 +11,10 @@ mod parameters;
 mod statics;
 mod waves;
 
-pub use element::{Block, elastic, flow_stiffness, mass, transfer};
-pub use linearisation::{Chain, Element, Hub, Vibration};
+pub use arrow::{Arrow, ArrowVector, Blocks};
+pub use element::{Element, Matrices, Stiffness};
+pub use hub::{Hub, Joint};
+pub use linearisation::{Chain, Vibration};
 pub use material::Material;
 pub use motion::{LengthRates, length_rates};
 pub use parameters::Knob;

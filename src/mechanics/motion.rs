@@ -10,7 +10,8 @@ use num_dual::{Dual2, DualNum, DualSVec64, DualStruct, jacobian};
 
 use super::cable::{CableModel, prescribed_tension};
 use super::parameters::Parameters;
-use crate::mechanics::Statics;
+use super::statics::POINT;
+use crate::mechanics::{CableShape, Statics};
 use crate::robot::{Robot, Vec2};
 
 /// The unstretched length's first and second derivative along the motion: L̇ = v L', L̈ = v² L'' at speed v.
@@ -31,8 +32,8 @@ pub fn length_rates(robot: &Robot, statics: &Statics, direction: Vec2) -> Option
     rates.iter().all(|r| r.first.is_finite() && r.second.is_finite()).then_some(rates)
 }
 
-/// (t₀, L) of every cable to second order along the motion, and to the order of `D` in the `parameters`, the real parts
-/// of which are those of `robot`. `None` where the pose is singular.
+/// (t₀, L) of every cable to second order along the motion, and to the order of `D` in the `parameters`. The real parts of
+/// the parameters are those of `robot`. `None` where the pose is singular.
 pub(super) fn paths<D: DualNum<Primitive = f64> + Copy>(
     robot: &Robot,
     parameters: &Parameters<D>,
@@ -66,19 +67,20 @@ pub(super) fn paths<D: DualNum<Primitive = f64> + Copy>(
         load = [load[0] - force[0], load[1] - force[1]];
     }
 
-    let pair = robot.pair();
-    let anchors = pair.map(|i| robot.cables[i].anchor);
-    let (a, b) = (statics.cables.get(pair[0])?, statics.cables.get(pair[1])?);
-    let path: [_; 6] = follow(
-        SVector::from([a.t0.x, a.t0.y, a.length, b.t0.x, b.t0.y, b.length]),
+    let cables = robot.equilibrium();
+    let anchors: Vec<Vec2> = cables.iter().map(|&i| robot.cables[i].anchor).collect();
+    let shapes: Vec<&CableShape> = cables.iter().filter_map(|&i| statics.cables.get(i)).collect();
+    let unknowns: Vec<f64> = shapes.iter().flat_map(|shape| [shape.t0.x, shape.t0.y, shape.length]).collect();
+    let path: [_; POINT] = follow(
+        SVector::from(<[f64; POINT]>::try_from(unknowns).ok()?),
         |z| {
             let (fixed, load) = ([fixed.x.into(), fixed.y.into()], load.map(|force| force.re().into()));
-            SVector::from(CableModel::of(robot).pair_residual(fixed, anchors, load, z.into()))
+            SVector::from(CableModel::of(robot).equilibrium_residual::<POINT>(fixed, &anchors, load, z.into()))
         },
-        |z| SVector::from(cable.pair_residual(position, anchors, load, z.into())),
+        |z| SVector::from(cable.equilibrium_residual::<POINT>(position, &anchors, load, z.into())),
     )?
     .into();
-    for (i, path) in pair.into_iter().zip(path.chunks_exact(3)) {
+    for (&i, path) in cables.iter().zip(path.chunks_exact(3)) {
         paths[i].copy_from_slice(path);
     }
     Some(paths)

@@ -16,6 +16,8 @@ use num_dual::{DualSVec64, jacobian};
 use super::cable::{CableModel, prescribed_tension};
 use crate::robot::{Robot, Vec2};
 
+/// The unknowns of the two cables that hold a point, (t₀, L) of each.
+pub(super) const POINT: usize = 6;
 /// The platform is "at" an anchor when nearer than this, in metres.
 const AT_ANCHOR: f64 = 1e-9;
 /// The equilibrium cables pull along one line when the sine of the angle between them is smaller than this: rounding of
@@ -23,13 +25,14 @@ const AT_ANCHOR: f64 = 1e-9;
 const ONE_LINE: f64 = 1e-12;
 /// Newton's method gives up after this many steps; it needs 5 from a straight line.
 const NEWTON_STEPS: usize = 40;
-/// A residual of this part of its equations' sizes is rounding, or of what some roundings of the unknowns make of it: much
-/// where an element carries next to nothing, for then they turn it. Where the equilibrium cables pull nearly along one line,
-/// 1e-11 can be left although there is no solution.
+/// A residual below this part of the size of its equations is rounding. A larger limit would be wrong: where the equilibrium
+/// cables pull nearly along one line, a residual of 1e-11 can be left although there is no solution.
 const SOLVED: f64 = 1e-13;
-const ROUNDINGS: f64 = 4.0 * f64::EPSILON;
-/// With such a residual Newton's method goes on for longer.
-const NEARLY: f64 = 1e-10;
+/// A residual is also rounding where a change of the unknowns by this part of them makes as much. Rounding turns an element
+/// that carries next to nothing, and then the residual can be far above [`SOLVED`].
+const ROUNDING_OF_UNKNOWNS: f64 = 4.0 * f64::EPSILON;
+/// Newton's method goes on beyond its usual number of steps where the residual is below this.
+const NEARLY_SOLVED: f64 = 1e-10;
 /// The smallest step of the cables' weight, as a part of the whole.
 const SMALLEST_STEP: f64 = 1e-7;
 /// At most this many steps of the weight.
@@ -103,7 +106,7 @@ pub enum Infeasible {
     /// The equilibrium cables cannot carry their own weight here.
     #[error("cable {} would go slack under its own weight", cable + 1)]
     GoesSlack {
-        /// The one of them with the smaller tension for its length.
+        /// The cable with the smallest tension for its length.
         cable: usize,
     },
 }
@@ -182,9 +185,9 @@ pub fn solve(robot: &Robot, position: Vec2) -> Result<Statics, Failure> {
     }
     let reason = match fault {
         Some(reason) => reason,
-        None => match pair(robot, position, load(robot, shapes.iter().flatten())) {
+        None => match equilibrium(robot, position, load(robot, shapes.iter().flatten())) {
             Ok(ends) => {
-                for (i, (t0, length)) in robot.pair().into_iter().zip(ends) {
+                for (&i, (t0, length)) in robot.equilibrium().iter().zip(ends) {
                     shapes[i] = Some(cable.shape(position, t0, length));
                 }
                 let cables = shapes.into_iter().flatten().collect();
@@ -261,46 +264,67 @@ fn prescribed(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), St
     Ok((Vec2::new(z[0], z[1]), z[2]))
 }
 
-/// (t₀, L) of the two equilibrium cables that together pull with `load`.
-fn pair(robot: &Robot, position: Vec2, load: Vec2) -> Result<[(Vec2, f64); 2], StaticsError> {
+/// (t₀, L) of the equilibrium cables, which together pull with `load`.
+fn equilibrium(robot: &Robot, position: Vec2, load: Vec2) -> Result<Vec<(Vec2, f64)>, StaticsError> {
     let (cable, dual_cable) = (CableModel::<f64>::of(robot), CableModel::of(robot));
-    let [a, b] = robot.pair();
-    let (chord_a, distance_a) = chord(robot, a, position)?;
-    let (chord_b, distance_b) = chord(robot, b, position)?;
-    let (e_a, e_b) = (chord_a / distance_a, chord_b / distance_b);
-    // Straight cables: T_a e_a + T_b e_b = load.
-    let sine = e_a.perp(&e_b);
-    let straight = [load.perp(&e_b) / sine, e_a.perp(&load) / sine];
-    // Nearly collinear, or so that the tensions leave every scale of the material.
-    let largest = 1e9 * cable.material.axial_stiffness.max(load.norm());
-    if sine.abs() < ONE_LINE || !straight.iter().all(|tension| tension.abs() < largest) {
-        return Err(Infeasible::OneLine { cables: [a, b] }.into());
-    }
-    let (weakest, tension) = if straight[0] < straight[1] { (a, straight[0]) } else { (b, straight[1]) };
-    if tension <= 0.0 {
-        return Err(Infeasible::WouldPush { cable: weakest, tension }.into());
-    }
-    let reach = |tension: f64, distance: f64| distance / cable.material.stretch(tension);
-    let (t_a, t_b) = (e_a * straight[0], e_b * straight[1]);
-    let (l_a, l_b) = (reach(straight[0], distance_a), reach(straight[1], distance_b));
-    let start = SVector::from([t_a.x, t_a.y, l_a, t_b.x, t_b.y, l_b]);
-    let force = straight[0].max(straight[1]);
-    let scale = SVector::from([distance_a, distance_a, distance_b, distance_b, force, force]);
-    let anchors = [robot.cables[a].anchor, robot.cables[b].anchor];
-    let residual = |part: f64, z: SVector<DualSVec64<6>, 6>| {
-        let dual = |v: Vec2| [DualSVec64::from(v.x), DualSVec64::from(v.y)];
-        SVector::from(dual_cable.with_weight(part).pair_residual(dual(position), anchors, dual(load), z.into()))
-    };
-    let z = turn_weight_on(start, &scale, residual, |z| z[2] > 0.0 && z[5] > 0.0).map_err(|stop| match stop {
-        Stop::Fold { last } => {
-            // The slacker one: the smaller tension for its length.
-            let tension = |i: usize| Vec2::from(cable.platform_force([last[i], last[i + 1]], last[i + 2])).norm();
-            let slack = if tension(0) / last[2] < tension(3) / last[5] { a } else { b };
-            Infeasible::GoesSlack { cable: slack }.into()
+    let cables = robot.equilibrium();
+    let chords: Vec<(Vec2, f64)> = cables.iter().map(|&i| chord(robot, i, position)).collect::<Result<_, _>>()?;
+    let directions: Vec<Vec2> = chords.iter().map(|&(chord, distance)| chord / distance).collect();
+    let tensions = straight_tensions(robot, &directions, load)?;
+    let start = SVector::from_fn(|i, _| {
+        let (k, tension) = (i / 3, tensions[i / 3]);
+        match i % 3 {
+            2 => chords[k].1 / cable.material.stretch(tension),
+            axis => directions[k][axis] * tension,
         }
-        Stop::Failed => StaticsError::NotConverged { cable: a },
-    })?;
-    Ok([(Vec2::new(z[0], z[1]), z[2]), (Vec2::new(z[3], z[4]), z[5])])
+    });
+    let force = tensions.iter().copied().fold(0.0, f64::max);
+    let scale = SVector::from_fn(|i, _| chords.get(i / 2).map_or(force, |&(_, distance)| distance));
+    let anchors: Vec<Vec2> = cables.iter().map(|&i| robot.cables[i].anchor).collect();
+    let residual = |part: f64, z: SVector<DualSVec64<POINT>, POINT>| {
+        let dual = |v: Vec2| [DualSVec64::from(v.x), DualSVec64::from(v.y)];
+        SVector::from(dual_cable.with_weight(part).equilibrium_residual::<POINT>(
+            dual(position),
+            &anchors,
+            dual(load),
+            z.into(),
+        ))
+    };
+    let each = |z: &SVector<f64, POINT>| -> Vec<(Vec2, f64)> {
+        z.as_slice().chunks_exact(3).map(|z| (Vec2::new(z[0], z[1]), z[2])).collect()
+    };
+    let admissible = |z: &SVector<f64, POINT>| each(z).iter().all(|&(_, length)| length > 0.0);
+    match turn_weight_on(start, &scale, residual, admissible) {
+        Ok(z) => Ok(each(&z)),
+        Err(Stop::Fold { last }) => {
+            // The slackest one has the smallest tension for its length; of equal ones it is the last.
+            let tautness = each(&last)
+                .into_iter()
+                .map(|(t0, length)| Vec2::from(cable.platform_force([t0.x, t0.y], length)).norm() / length);
+            let slackest = cables.iter().zip(tautness).rev().min_by(|a, b| a.1.total_cmp(&b.1));
+            Err(Infeasible::GoesSlack { cable: slackest.map_or(cables[0], |(&cable, _)| cable) }.into())
+        }
+        Err(Stop::Failed) => Err(StaticsError::NotConverged { cable: cables[0] }),
+    }
+}
+
+/// The tensions of the two straight cables without weight that hold a point: T₁ e₁ + T₂ e₂ = `load`, for the unit vectors
+/// `directions`.
+fn straight_tensions(robot: &Robot, directions: &[Vec2], load: Vec2) -> Result<[f64; 2], Infeasible> {
+    let cables = [robot.equilibrium()[0], robot.equilibrium()[1]];
+    let (e_a, e_b) = (directions[0], directions[1]);
+    let sine = e_a.perp(&e_b);
+    let tensions = [load.perp(&e_b) / sine, e_a.perp(&load) / sine];
+    // Nearly collinear, or so that the tensions leave every scale of the material.
+    let largest = 1e9 * robot.axial_stiffness().max(load.norm());
+    if sine.abs() < ONE_LINE || !tensions.iter().all(|tension| tension.abs() < largest) {
+        return Err(Infeasible::OneLine { cables });
+    }
+    let weakest = usize::from(tensions[1] <= tensions[0]);
+    if tensions[weakest] <= 0.0 {
+        return Err(Infeasible::WouldPush { cable: cables[weakest], tension: tensions[weakest] });
+    }
+    Ok(tensions)
 }
 
 /// Why the taut shape could not be followed to full weight.
@@ -370,12 +394,12 @@ where
         (f, j, size)
     };
     let solved = |z: &SVector<f64, N>, j: &OMatrix<f64, Const<N>, Const<N>>, size: f64| {
-        size < SOLVED || size < ROUNDINGS * (j.abs() * z.abs()).component_div(scale).norm()
+        size < SOLVED || size < ROUNDING_OF_UNKNOWNS * (j.abs() * z.abs()).component_div(scale).norm()
     };
     let (mut f, mut j, mut size) = evaluate(&z);
     for steps in 0..2 * NEWTON_STEPS {
-        // Towards the line of both anchors it comes slowly: what is nearly there goes on to rounding.
-        if !size.is_finite() || (steps >= NEWTON_STEPS && size >= NEARLY) {
+        // Near the line through both anchors Newton's method is slow. A nearly solved problem goes on to rounding.
+        if !size.is_finite() || (steps >= NEWTON_STEPS && size >= NEARLY_SOLVED) {
             return None;
         }
         let lu = j.lu();
@@ -389,9 +413,9 @@ where
             }
             damping *= 0.5;
             if damping < 1e-3 {
-                // No way down. Where cables pull nearly along one line, large changes of their tensions hide in small
-                // residuals: there a whole step is right that makes the next one smaller. Else rounding has been reached,
-                // or there is no solution here.
+                // No part of the step makes the residual smaller. Where cables pull nearly along one line, large changes of
+                // their tensions hide in small residuals. There the whole step is right if it makes the next step smaller.
+                // Otherwise the residual is rounding, or there is no solution here.
                 let next = z - step;
                 let values = evaluate(&next);
                 let after = lu.solve(&values.0)?;
@@ -407,7 +431,7 @@ where
     solved(&z, &j, size).then_some((z, j))
 }
 
-/// The largest part of a cable's force or length, in `z`, that a change of them is.
+/// How large a `change` of the unknowns `z` is: the largest ratio to a cable's force or length.
 fn relative<const N: usize>(change: &SVector<f64, N>, z: &SVector<f64, N>) -> f64 {
     let parts = (0..N).step_by(3).map(|i| {
         let force = change[i].hypot(change[i + 1]) / z[i].hypot(z[i + 1]);

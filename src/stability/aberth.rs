@@ -433,15 +433,15 @@ fn inverse(z: C64) -> C64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Motion, paper};
-    use crate::study::Local;
+    use crate::robot::paper_spec;
+    use crate::stability::problems;
 
-    fn local() -> Local {
-        Local::new(&paper().unwrap(), &Motion::new([2.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
+    fn vibration() -> Vibration {
+        problems::of_robot(paper_spec(), [2.0, 0.0], [1.0, 0.0])
     }
 
     fn spectra() -> Spectra {
-        Spectra::new(&local().vibration).unwrap()
+        Spectra::new(&vibration()).unwrap()
     }
 
     fn estimates(values: &[[f64; 2]], paired: bool) -> Estimates {
@@ -476,7 +476,7 @@ mod tests {
     fn the_dense_solver_steps_in() {
         let expected = spectra().iterate(5.0).unwrap();
         let mut spectra = Spectra { failures: PATIENCE, ..spectra() };
-        let found = spectra.spectrum(&local().vibration, 5.0).unwrap();
+        let found = spectra.spectrum(&vibration(), 5.0).unwrap();
         assert!(spectra.dense.is_some());
         assert!((found.rightmost() - expected.rightmost()).norm() < 1e-12, "{found:?}");
     }
@@ -555,8 +555,7 @@ mod tests {
     fn the_slowest_modes_are_those_of_the_whole_spectrum() {
         for beta in [0.002, 0.5] {
             let mut spectra = Spectra { beta, ..spectra() };
-            let local = local();
-            let mut vibration = local.vibration.clone();
+            let mut vibration = vibration();
             vibration.damping.beta = beta;
             spectra = Spectra { damping: Spectra::new(&vibration).unwrap().damping, ..spectra };
             spectra.function = Characteristic::new(&vibration);
@@ -576,11 +575,10 @@ mod tests {
     /// The same work in the same order, however it is cut: equal to the last bit.
     #[test]
     fn a_spectrum_in_steps_is_the_spectrum() {
-        let local = local();
-        let expected = spectra().spectrum(&local.vibration, 5.0).unwrap();
+        let vibration = vibration();
+        let expected = spectra().spectrum(&vibration, 5.0).unwrap();
         let mut spectra = spectra();
-        let mut steps =
-            crate::stability::Steps::new(async move { spectra.spectrum_in_steps(&local.vibration, 5.0).await });
+        let mut steps = crate::stability::Steps::new(async move { spectra.spectrum_in_steps(&vibration, 5.0).await });
         let mut count = 0;
         let found = loop {
             match steps.advance() {

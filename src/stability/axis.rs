@@ -1,32 +1,17 @@
 //! The characteristic function on the imaginary axis, for many frequencies at few speeds.
 //!
 //! The search for crossings wants det Q(iω, v) along lines of constant v. There an inner node's own entry of Q in the
-//! scalar problem is a quadratic in λ with real coefficients, and the product of its two couplings, all that elimination
-//! needs of them, a quartic; they are prepared once per line. On the axis even powers of λ are real and odd ones
-//! imaginary. (Near λ = −1/β, where entries nearly vanish, expanded products would lose digits; on the axis
-//! |1 + βλ| ≥ 1.) The planar problem has no such short form and is evaluated as anywhere.
+//! scalar problem is a quadratic in λ with real coefficients. Elimination needs the product of the node's two couplings
+//! alone, which is a quartic. Both are prepared once per line. (Near λ = −1/β, where entries nearly vanish, expanded products
+//! would lose digits; on the axis |1 + βλ| ≥ 1.) The planar problem has no such short form and is evaluated as anywhere.
 
 use nalgebra::Complex;
 
 use super::characteristic::{Characteristic, LogDeterminant};
-use super::jet::{Jet, Number, Pair};
+use super::polynomial::{Quadratic, Quartic};
 
-/// Lines that are kept: the two edges of a strip, one between them, and one elsewhere.
+/// How many lines are kept: the two edges of a strip, one between them, and one elsewhere.
 const KEPT: usize = 4;
-
-/// A quadratic in λ and its derivative in v; coefficients from the constant on.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Quadratic {
-    pub(super) value: [Pair; 3],
-    pub(super) by_speed: [Pair; 2],
-}
-
-/// A quartic in λ and its derivative in v.
-#[derive(Clone, Copy, Debug)]
-struct Quartic {
-    value: [Pair; 5],
-    by_speed: [Pair; 4],
-}
 
 /// An inner node at one speed.
 #[derive(Clone, Copy, Debug)]
@@ -89,62 +74,18 @@ impl Axis {
     }
 }
 
-impl Quadratic {
-    #[inline]
-    fn at(&self, omega: f64, square: f64) -> Jet<Pair> {
-        let ([a, b, c], [d, e]) = (self.value, self.by_speed);
-        Jet {
-            value: Number { re: a - c * square, im: b * omega },
-            by_lambda: Number { re: b, im: c * (2.0 * omega) },
-            by_speed: Number { re: d, im: e * omega },
-        }
-    }
-
-    fn times(&self, other: &Self) -> Quartic {
-        let mut product = Quartic { value: [Pair::default(); 5], by_speed: [Pair::default(); 4] };
-        let mut add = |to: usize, term: Pair| product.by_speed[to] = product.by_speed[to] + term;
-        for (i, slope) in self.by_speed.into_iter().enumerate() {
-            other.value.into_iter().enumerate().for_each(|(j, value)| add(i + j, slope * value));
-        }
-        for (i, slope) in other.by_speed.into_iter().enumerate() {
-            self.value.into_iter().enumerate().for_each(|(j, value)| add(i + j, slope * value));
-        }
-        for (i, a) in self.value.into_iter().enumerate() {
-            for (j, b) in other.value.into_iter().enumerate() {
-                product.value[i + j] = product.value[i + j] + a * b;
-            }
-        }
-        product
-    }
-}
-
-impl Quartic {
-    #[inline]
-    fn at(&self, omega: f64, square: f64) -> Jet<Pair> {
-        let ([a, b, c, d, e], [f, g, h, k]) = (self.value, self.by_speed);
-        let e_square = e * square;
-        let d_square = d * square;
-        Jet {
-            value: Number { re: a - (c - e_square) * square, im: (b - d_square) * omega },
-            by_lambda: Number { re: b - d_square * 3.0, im: (c - e_square * 2.0) * (2.0 * omega) },
-            by_speed: Number { re: f - h * square, im: (g - k * square) * omega },
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Linearisation, Motion, Robot, RobotSpec, paper_spec};
-    use crate::study::Local;
+    use crate::robot::{Linearisation, RobotSpec, paper_spec};
+    use crate::stability::problems;
 
     /// The prepared lines give what the elimination gives anywhere in the plane.
     #[test]
     fn the_axis_is_part_of_the_plane() {
         for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
-            let robot = Robot::new(RobotSpec { linearisation, ..paper_spec() }).unwrap();
-            let local = Local::new(&robot, &Motion::new([2.0, 0.5], [1.0, 0.4], 5.0).unwrap()).unwrap();
-            let function = Characteristic::new(&local.vibration);
+            let spec = RobotSpec { linearisation, ..paper_spec() };
+            let function = Characteristic::new(&problems::of_robot(spec, [2.0, 0.5], [1.0, 0.4]));
             let mut axis = Axis::new(function.clone());
             for speed in [0.0, 3.0, 11.0, 3.0, 5.0, 6.0, 7.0, 3.0, 11.0] {
                 for omega in [0.0, 0.7, 5.3, 30.0, 400.0] {

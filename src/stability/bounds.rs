@@ -23,7 +23,7 @@
 
 use std::f64::consts::PI;
 
-use crate::mechanics::{Element, Hub, Vibration};
+use crate::mechanics::{Element, Vibration};
 use crate::robot::Damping;
 
 /// Relative size of rounding in the flow at the elements' ends.
@@ -110,16 +110,14 @@ struct Flow {
 
 impl Flow {
     fn of(element: &Element) -> Self {
-        let mass = 3.0 * element.mass[(0, 0)];
-        // C = 2 μ [[−a, a], [−b, b]] with a = w₀/3 + w₁/6, b = w₀/6 + w₁/3.
-        let ends = |a: f64, b: f64| [4.0 * a - 2.0 * b, 4.0 * b - 2.0 * a];
-        let flow = ends(0.5 * element.transfer[(0, 1)], -0.5 * element.transfer[(1, 0)]);
-        let square = (flow[0] * flow[0] + flow[0] * flow[1] + flow[1] * flow[1]) / (3.0 * mass);
-        let rate = ends(element.flow[(0, 1)] - square, square - element.flow[(1, 0)]);
-        let k = &element.elastic;
-        let (mean, radius) =
-            (0.5 * (k[(0, 0)] + k[(1, 1)]), (0.5 * (k[(0, 0)] - k[(1, 1)])).hypot(0.5 * (k[(0, 1)] + k[(1, 0)])));
-        Self { mass, through: flow, rate, elastic: [mean - radius, mean + radius] }
+        let flow = |rates: [f64; 2]| rates.map(|rate| element.mass_per_length * rate);
+        let [along, across] = element.springs();
+        Self {
+            mass: element.total_mass(),
+            through: flow(element.inflow),
+            rate: flow(element.inflow_rate),
+            elastic: [along.min(across), along.max(across)],
+        }
     }
 }
 
@@ -144,10 +142,8 @@ impl Bounds {
         let directions = if vibration.isotropic { 1 } else { 2 };
         let (mut compliance, mut hub_stiffness) = (0.0_f64, 0.0);
         for chain in &vibration.chains {
-            let mut before = match vibration.hub {
-                Hub::Platform(_) => Some([0.0, 0.0]),
-                Hub::Fixed => None,
-            };
+            // No material passes the platform.
+            let mut before = vibration.hub.platform_mass().map(|_| [0.0, 0.0]);
             let (mut stretch, mut mass, mut softest) = (0.0, 0.0, f64::INFINITY);
             for element in chain.elements() {
                 let one = Flow::of(element);
@@ -181,10 +177,7 @@ impl Bounds {
             bounds.across.add(flows().map(|flow| (flow, flow.elastic[0])));
             bounds.along.add(flows().map(|flow| (flow, flow.elastic[1])));
         }
-        let hub = match vibration.hub {
-            Hub::Platform(mass) => mass / hub_stiffness,
-            Hub::Fixed => 0.0,
-        };
+        let hub = vibration.hub.platform_mass().map_or(0.0, |mass| mass / hub_stiffness);
         bounds.lowest = 1.0 / (compliance + hub);
         let numbers = [bounds.slowness, bounds.acceleration, bounds.highest, bounds.lowest, bounds.across.travels];
         numbers.iter().all(|number| number.is_finite()).then_some(bounds)
@@ -343,26 +336,14 @@ fn between(a: f64, b: f64, c: f64) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::{Chain, Material, elastic, flow_stiffness, mass, transfer};
-    use crate::robot::{Linearisation, Motion, Robot, RobotSpec, Strain, Vec2, paper_spec};
-    use crate::stability::Eigenproblem;
-    use crate::study::Local;
+    use crate::mechanics::{Chain, Hub};
+    use crate::robot::{Linearisation, RobotSpec, paper_spec};
+    use crate::stability::problems::{self, MATERIAL, MU};
+    use crate::stability::{CriticalSearch, Eigenproblem, Outcome};
 
-    const MATERIAL: Material = Material { axial_stiffness: 6250.0, strain: Strain::Green };
-    const MU: f64 = 0.4;
-
-    /// A straight cable of this unstretched length (m) and tension (N) in oblique direction, L' and L'' given.
+    /// A straight cable of this unstretched length (m) and tension (N), L' and L'' given.
     fn straight(length: f64, tension: f64, rates: [f64; 2]) -> Chain {
-        let n = 6;
-        let l = length / f64::from(n);
-        let inflow = |k: i32, rate: f64| [-f64::from(k) * rate / f64::from(n), -f64::from(k + 1) * rate / f64::from(n)];
-        let element = |k| Element {
-            mass: mass(MU, l),
-            transfer: transfer(MU, inflow(k, rates[0])),
-            flow: flow_stiffness(MU, l, inflow(k, rates[0]), inflow(k, rates[1])),
-            elastic: elastic(MATERIAL, Linearisation::Tangent, l, Vec2::new(0.6, 0.8) * tension),
-        };
-        Chain::new((0..n).map(element).collect()).unwrap()
+        problems::straight(6, length, tension, rates, Linearisation::Tangent)
     }
 
     fn near(a: f64, b: f64, tolerance: f64, what: &str) {
@@ -388,7 +369,7 @@ mod tests {
         let (lengths, tensions, rates) = ([3.0, 11.0], [90.0, 40.0], [[-0.6, 0.2], [0.9, -0.3]]);
         let vibration = Vibration {
             chains: [0, 1].map(|i| straight(lengths[i], tensions[i], rates[i])).into(),
-            hub: Hub::Platform(5.0),
+            hub: Hub::point(5.0, 2),
             damping: Damping { alpha: 0.3, beta: 0.002 },
             isotropic: false,
         };
@@ -433,7 +414,7 @@ mod tests {
     fn there_are_no_bounds_where_the_flow_jumps() {
         let mut vibration = Vibration {
             chains: vec![straight(3.0, 90.0, [-0.6, 0.2])],
-            hub: Hub::Platform(5.0),
+            hub: Hub::point(5.0, 1),
             damping: Damping { alpha: 0.3, beta: 0.002 },
             isotropic: false,
         };
@@ -448,13 +429,13 @@ mod tests {
             (flow[0], [-0.1, -0.14], false),
         ] {
             vibration.chains[0] = whole.clone();
-            vibration.chains[0].elements_mut()[3].transfer = transfer(MU, w);
-            vibration.chains[0].elements_mut()[3].flow = flow_stiffness(MU, 0.5, w, rate);
+            let element = &mut vibration.chains[0].elements_mut()[3];
+            *element = element.with_inflow(w, rate);
             assert_eq!(Bounds::new(&vibration).is_some(), holds, "{w:?} {rate:?}");
         }
         vibration.chains[0] = Chain::new(whole.elements()[1..].to_vec()).unwrap();
         assert!(Bounds::new(&vibration).is_none(), "flow at the platform");
-        vibration.hub = Hub::Fixed;
+        vibration.hub = Hub::fixed(1);
         assert!(Bounds::new(&vibration).is_some(), "flow at a fixed end");
     }
 
@@ -547,7 +528,7 @@ mod tests {
         let (length, tension) = (11.0, 40.0);
         let chain = straight(length, tension, [0.0, 0.0]);
         let damping = Damping { alpha: 0.0, beta: 0.0 };
-        let isotropic = Vibration { chains: vec![chain], hub: Hub::Fixed, damping, isotropic: true };
+        let isotropic = Vibration { chains: vec![chain], hub: Hub::fixed(1), damping, isotropic: true };
         let mut bounds = Bounds::new(&isotropic).unwrap();
         // The mesh matters everywhere, so that the exact density is taken.
         bounds.smooth = -1.0;
@@ -603,25 +584,21 @@ mod tests {
         }
     }
 
-    fn local(linearisation: Linearisation, elements: usize, at: [f64; 2], towards: [f64; 2]) -> Local {
-        let robot = Robot::new(RobotSpec { elements, linearisation, ..paper_spec() }).unwrap();
-        Local::new(&robot, &Motion::new(at, towards, 5.0).unwrap()).unwrap()
-    }
-
     /// Undamped frequencies are between the bounds; nothing grows at the lowest speed; what grows above it oscillates
     /// below the highest frequency where it begins to.
     #[test]
     fn the_bounds_hold_for_the_papers_robot() {
         for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
             for (at, towards) in [([0.0, 0.0], [1.0, 0.0]), ([4.0, 1.0], [1.0, 1.0]), ([7.0, 0.0], [-1.0, 0.0])] {
-                let local = local(linearisation, 6, at, towards);
-                let bounds = Bounds::new(&local.vibration).unwrap();
-                let dense = Eigenproblem::new(&local.vibration).unwrap();
+                let spec = RobotSpec { elements: 6, linearisation, ..paper_spec() };
+                let vibration = problems::of_robot(spec, at, towards);
+                let bounds = Bounds::new(&vibration).unwrap();
+                let dense = Eigenproblem::new(&vibration).unwrap();
                 let squares = dense.undamped_squares();
                 assert!(squares.iter().all(|&square| (bounds.lowest..=bounds.highest).contains(&square)));
                 let lowest = bounds.lowest_speed(40.0);
                 assert!(dense.spectrum(lowest).unwrap().growth_rate() < 0.0);
-                if let crate::stability::Outcome::Found(critical) = local.critical_speed(40.0).unwrap() {
+                if let Outcome::Found(critical) = CriticalSearch::new(40.0).run(&vibration).unwrap() {
                     assert!(critical.speed > lowest);
                     assert!(critical.eigenvalue.im < bounds.highest_frequency(critical.speed));
                 }
@@ -633,8 +610,8 @@ mod tests {
     #[test]
     fn the_band_is_that_of_the_cable_not_of_the_mesh() {
         let bounds = |elements| {
-            let local = local(Linearisation::Tangent, elements, [0.0, 0.0], [1.0, 0.0]);
-            Bounds::new(&local.vibration).unwrap()
+            let spec = RobotSpec { elements, linearisation: Linearisation::Tangent, ..paper_spec() };
+            Bounds::new(&problems::of_robot(spec, [0.0, 0.0], [1.0, 0.0])).unwrap()
         };
         let (coarse, fine) = (bounds(10), bounds(80));
         assert!((5.0..6.0).contains(&coarse.lowest_speed(40.0)), "{}", coarse.lowest_speed(40.0));

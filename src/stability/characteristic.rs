@@ -5,14 +5,18 @@
 //! determinants, in O(n) and without a matrix. The derivatives in λ and in v go along with every operation.
 //! docs/theory.md section 11.
 //!
+//! This is the elimination of [`crate::mechanics::Arrow`] once more, for the sake of speed: the search evaluates it a
+//! thousand times. Here two cables go through it side by side, a coupling is diagonal in the basis of its element, and
+//! nothing is kept for solutions. ARCHITECTURE.md has the figures.
+//!
 //! An isotropic problem is that of one direction twice; its characteristic function here is that of one direction, so
 //! that simple eigenvalues stay simple.
 
 use nalgebra::{Complex, Matrix2};
 
-use super::axis::Quadratic;
 use super::jet::{Jet, Number, Pair, Planar, Real};
-use crate::mechanics::{Chain, Element, Hub, Vibration};
+use super::polynomial::Quadratic;
+use crate::mechanics::{Chain, Element, Vibration};
 
 type C64 = Complex<f64>;
 
@@ -97,11 +101,8 @@ struct PlanarNode {
 impl Characteristic {
     /// Prepares the coefficients.
     pub fn new(vibration: &Vibration) -> Self {
-        let platform = match vibration.hub {
-            Hub::Platform(mass) => Some(mass),
-            Hub::Fixed => None,
-        };
-        let hub = vibration.chains.iter().map(|chain| PlanarSum::of(&chain.elements()[0], 0));
+        let platform = vibration.hub.platform_mass();
+        let hub = vibration.chains.iter().map(|chain| PlanarSum::<f64>::of(&Prepared::new(&chain.elements()[0]), 0));
         let hub = hub.fold(PlanarSum::default(), PlanarSum::plus);
         let kind = if vibration.isotropic {
             Kind::Scalar {
@@ -161,7 +162,8 @@ impl Characteristic {
         }
     }
 
-    /// The scalar problem's own entries and couplings to and fro at a speed, node after node; none for the planar one.
+    /// Of each node of the scalar problem at a speed: its own entry, and its couplings to and from the node on the platform's
+    /// side. The planar problem has none.
     pub(super) fn scalar_entries(&self, speed: f64) -> impl Iterator<Item = [Quadratic; 3]> {
         let sides = match &self.kind {
             Kind::Scalar { sides, .. } => sides.as_slice(),
@@ -175,7 +177,7 @@ impl Characteristic {
         all.map(move |node| [&node.own, &node.inward, &node.outward].map(quadratic))
     }
 
-    /// The scalar problem's value, from its nodes' own entries and products of couplings, in their order.
+    /// The scalar problem's value. `next` gives each node's own entry and the product of its couplings, in their order.
     #[inline]
     pub(super) fn scalar_at(
         &self,
@@ -207,33 +209,61 @@ impl Characteristic {
 
 /// The cables in twos of the same length, as nodes made from two elements each: the one on the platform's side and the
 /// one on the winch's side.
-fn side_by_side<N>(vibration: &Vibration, node: impl Fn([&Element; 2], [&Element; 2]) -> N) -> Vec<SideBySide<N>> {
-    let mut chains = vibration.chains.as_slice();
+fn side_by_side<N>(vibration: &Vibration, node: impl Fn([&Prepared; 2], [&Prepared; 2]) -> N) -> Vec<SideBySide<N>> {
+    let prepared = |chain: &Chain| chain.elements().iter().map(Prepared::new).collect();
+    let chains: Vec<Vec<Prepared>> = vibration.chains.iter().map(prepared).collect();
+    let mut chains = chains.as_slice();
     let mut sides = Vec::new();
     while let [first, rest @ ..] = chains {
-        let second = rest.first().filter(|second| second.elements().len() == first.elements().len());
+        let second = rest.first().filter(|second| second.len() == first.len());
         let cables = if second.is_some() { 2 } else { 1 };
         let both = [first, second.unwrap_or(first)];
-        let at = |k: usize| both.map(|chain: &Chain| &chain.elements()[k]);
-        let nodes = (1..first.elements().len()).rev().map(|k| node(at(k - 1), at(k))).collect();
+        let at = |k: usize| both.map(|chain| &chain[k]);
+        let nodes = (1..first.len()).rev().map(|k| node(at(k - 1), at(k))).collect();
         sides.push(SideBySide { nodes, cables });
         chains = &chains[cables..];
     }
     sides
 }
 
+/// What the elimination needs of an element.
+struct Prepared {
+    mass: Matrix2<f64>,
+    transfer: Matrix2<f64>,
+    flow: Matrix2<f64>,
+    /// The stiffnesses along the element and across it, in N/m.
+    springs: [f64; 2],
+    /// cos 2θ and sin 2θ of the element's angle θ.
+    turn: [f64; 2],
+}
+
+impl Prepared {
+    fn new(element: &Element) -> Self {
+        let e = element.stiffness.direction;
+        Self {
+            mass: element.mass(),
+            transfer: element.transfer(),
+            flow: element.flow_stiffness(),
+            springs: element.springs(),
+            turn: [e.x * e.x - e.y * e.y, 2.0 * e.x * e.y],
+        }
+    }
+
+    /// A/l = [[t + x, y], [y, t − x]].
+    fn elastic(&self) -> [f64; 3] {
+        let [along, across] = self.springs;
+        let radius = 0.5 * (along - across);
+        [0.5 * (along + across), radius * self.turn[0], radius * self.turn[1]]
+    }
+}
+
 /// One quantity of two elements.
-fn pair(elements: [&Element; 2], of: impl Fn(&Element) -> f64) -> Pair {
+fn pair(elements: [&Prepared; 2], of: impl Fn(&Prepared) -> f64) -> Pair {
     Pair(elements.map(of))
 }
 
-/// k = [[t + x, y], [y, t − x]].
-fn parts(k: &Matrix2<f64>) -> [f64; 3] {
-    [0.5 * (k[(0, 0)] + k[(1, 1)]), 0.5 * (k[(0, 0)] - k[(1, 1)]), 0.5 * (k[(0, 1)] + k[(1, 0)])]
-}
-
 impl Entry<Pair> {
-    fn of(elements: [&Element; 2], i: usize, j: usize) -> Self {
+    fn of(elements: [&Prepared; 2], i: usize, j: usize) -> Self {
         Self {
             mass: pair(elements, |e| e.mass[(i, j)]),
             transfer: pair(elements, |e| e.transfer[(i, j)]),
@@ -243,46 +273,39 @@ impl Entry<Pair> {
 }
 
 impl Node {
-    fn new(coupling: [&Element; 2], outer: [&Element; 2]) -> Self {
+    fn new(coupling: [&Prepared; 2], outer: [&Prepared; 2]) -> Self {
         let own = PlanarSum::<Pair>::of_both(coupling, 1).plus(PlanarSum::<Pair>::of_both(outer, 0));
-        let elastic = pair(coupling, |e| -e.elastic[(0, 0)]);
+        let elastic = pair(coupling, |e| -e.springs[1]);
         let [inward, outward] = [(0, 1), (1, 0)].map(|(i, j)| Sum { entry: Entry::of(coupling, i, j), elastic });
         Self { own: Sum { entry: own.entry, elastic: own.elastic[0] }, inward, outward }
     }
 }
 
 impl PlanarNode {
-    fn new(coupling: [&Element; 2], outer: [&Element; 2]) -> Self {
+    fn new(coupling: [&Prepared; 2], outer: [&Prepared; 2]) -> Self {
         let own = PlanarSum::<Pair>::of_both(coupling, 1).plus(PlanarSum::<Pair>::of_both(outer, 0));
-        let radius = |e: &Element| {
-            let [_, x, y] = parts(&e.elastic);
-            x.hypot(y)
-        };
-        // In its own basis an element of equal stiffnesses needs no turn.
-        let turn =
-            |e: &Element, i: usize| if radius(e) > 0.0 { parts(&e.elastic)[i] / radius(e) } else { (2 - i) as f64 };
         let [inward, outward] = [(0, 1), (1, 0)].map(|(i, j)| Entry::of(coupling, i, j));
         Self {
             own,
             inward,
             outward,
-            elastic: [1.0, -1.0].map(|sign| pair(coupling, |e| parts(&e.elastic)[0] + sign * radius(e))),
-            turn: [1, 2].map(|i| pair(coupling, |e| turn(e, i))),
+            elastic: [0, 1].map(|i| pair(coupling, |e| e.springs[i])),
+            turn: [0, 1].map(|i| pair(coupling, |e| e.turn[i])),
         }
     }
 }
 
 impl PlanarSum<f64> {
-    fn of(element: &Element, i: usize) -> Self {
+    fn of(element: &Prepared, i: usize) -> Self {
         let entry =
             Entry { mass: element.mass[(i, i)], transfer: element.transfer[(i, i)], flow: element.flow[(i, i)] };
-        Self { entry, elastic: parts(&element.elastic) }
+        Self { entry, elastic: element.elastic() }
     }
 }
 
 impl PlanarSum<Pair> {
-    fn of_both(elements: [&Element; 2], i: usize) -> Self {
-        let elastic = [0, 1, 2].map(|part| pair(elements, |e| parts(&e.elastic)[part]));
+    fn of_both(elements: [&Prepared; 2], i: usize) -> Self {
+        let elastic = [0, 1, 2].map(|part| pair(elements, |e| e.elastic()[part]));
         Self { entry: Entry::of(elements, i, i), elastic }
     }
 }
@@ -351,8 +374,8 @@ impl Point {
     }
 }
 
-/// The product of the pivots' determinants of two cables: mantissa, logarithm of what was taken out of it, and
-/// logarithmic derivatives.
+/// The product of the pivots' determinants of two cables. It is kept as a mantissa, the logarithm of the factors that were
+/// taken out of the mantissa, and the logarithmic derivatives.
 struct Product {
     mantissa: Number<Pair>,
     log: [f64; 2],
@@ -399,7 +422,7 @@ impl Product {
         }
     }
 
-    /// Hands one cable's over.
+    /// The part of one of the two cables.
     fn lane(&self, lane: usize) -> Total {
         Total {
             mantissa: self.mantissa.lane(lane),
@@ -455,13 +478,11 @@ impl Total {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Linearisation, Motion, Robot, paper_spec};
-    use crate::stability::Eigenproblem;
-    use crate::study::Local;
+    use crate::robot::{Linearisation, RobotSpec, paper_spec};
+    use crate::stability::{Eigenproblem, problems};
 
-    fn local(linearisation: Linearisation, elements: usize) -> Local {
-        let robot = Robot::new(crate::robot::RobotSpec { elements, linearisation, ..paper_spec() }).unwrap();
-        Local::new(&robot, &Motion::new([2.0, 0.5], [1.0, 0.4], 5.0).unwrap()).unwrap()
+    fn problem(linearisation: Linearisation, elements: usize) -> Vibration {
+        problems::of_robot(RobotSpec { elements, linearisation, ..paper_spec() }, [2.0, 0.5], [1.0, 0.4])
     }
 
     /// The logarithmic derivative in λ is the sum of 1/(λ − λⱼ) over the dense solver's eigenvalues.
@@ -470,11 +491,11 @@ mod tests {
         for (linearisation, elements) in
             [(Linearisation::Tangent, 10), (Linearisation::Secant, 10), (Linearisation::Tangent, 2)]
         {
-            let local = local(linearisation, elements);
-            let function = Characteristic::new(&local.vibration);
+            let vibration = problem(linearisation, elements);
+            let function = Characteristic::new(&vibration);
             for speed in [0.0, 4.0, 13.0] {
-                let spectrum = Eigenproblem::new(&local.vibration).unwrap().spectrum(speed).unwrap();
-                let each = if local.vibration.isotropic { 2 } else { 1 };
+                let spectrum = Eigenproblem::new(&vibration).unwrap().spectrum(speed).unwrap();
+                let each = if vibration.isotropic { 2 } else { 1 };
                 for lambda in [C64::new(0.3, 1.0), C64::new(-0.2, 7.0), C64::new(2.0, 0.0), C64::new(0.0, 20.0)] {
                     let expected: C64 = spectrum.eigenvalues().step_by(each).map(|l| (lambda - l).inv()).sum();
                     let value = function.at(lambda, speed);
@@ -489,7 +510,7 @@ mod tests {
     #[test]
     fn derivatives_are_those_of_the_value() {
         for linearisation in [Linearisation::Tangent, Linearisation::Secant] {
-            let function = Characteristic::new(&local(linearisation, 7).vibration);
+            let function = Characteristic::new(&problem(linearisation, 7));
             let (lambda, speed, h) = (C64::new(0.1, 3.0), 6.0, 1e-5);
             let value = function.at(lambda, speed);
             let slope = |a: LogDeterminant, b: LogDeterminant| {
@@ -507,7 +528,7 @@ mod tests {
     /// The product stays in range where the determinant itself does not.
     #[test]
     fn the_range_of_floating_point_is_no_limit() {
-        let function = Characteristic::new(&local(Linearisation::Tangent, 200).vibration);
+        let function = Characteristic::new(&problem(Linearisation::Tangent, 200));
         let value = function.at(C64::new(1e3, 1e4), 3.0);
         assert!(value.log.re > 800.0 && value.log.re.is_finite(), "{value:?}");
     }

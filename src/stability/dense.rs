@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, Schur};
 
-use crate::mechanics::{Hub, Vibration};
+use crate::mechanics::Vibration;
 use crate::robot::Damping;
 use crate::stability::spectrum::Rounding;
 use crate::stability::{NotConverged, Solver, Spectrum};
@@ -39,39 +39,44 @@ impl Eigenproblem {
         let zero = || DMatrix::<f64>::zeros(size, size);
         let (mut mass, mut transfer, mut flow, mut elastic) = (zero(), zero(), zero(), zero());
 
-        let mut next = 0;
-        let hub = match vibration.hub {
-            Hub::Fixed => None,
-            Hub::Platform(platform) => {
-                for direction in 0..directions {
-                    mass[(direction, direction)] = platform;
+        // Of one direction the hub is a point.
+        let hub = &vibration.hub;
+        let dof = if vibration.isotropic { hub.dof().min(1) } else { hub.dof() };
+        mass.view_mut((0, 0), (dof, dof)).copy_from(&hub.mass().view((0, 0), (dof, dof)));
+        elastic.view_mut((0, 0), (dof, dof)).copy_from(&hub.stiffness().view((0, 0), (dof, dof)));
+        let mut next = dof;
+        for (chain, joint) in vibration.chains.iter().zip(hub.joints()) {
+            let winch = chain.elements().len();
+            // The unknowns that make up the displacement of node k in a direction, each with its factor.
+            let unknowns = |k: usize, direction: usize| -> Vec<(usize, f64)> {
+                match k {
+                    0 => (0..dof).map(|q| (q, joint[(direction, q)])).filter(|&(_, factor)| factor != 0.0).collect(),
+                    _ if k == winch => Vec::new(),
+                    _ => vec![(next + directions * (k - 1) + direction, 1.0)],
                 }
-                next = 1;
-                Some(0)
-            }
-        };
-        for chain in &vibration.chains {
+            };
             for (k, element) in chain.elements().iter().enumerate() {
-                let outer = next + k;
-                let winch = k + 1 == chain.elements().len();
-                let nodes = [if k == 0 { hub } else { Some(outer - 1) }, (!winch).then_some(outer)];
-                for (i, row) in nodes.into_iter().enumerate() {
-                    for (j, column) in nodes.into_iter().enumerate() {
-                        let (Some(row), Some(column)) = (row, column) else { continue };
-                        let sign = if i == j { 1.0 } else { -1.0 };
-                        for a in 0..directions {
-                            let at = (row * directions + a, column * directions + a);
-                            mass[at] += element.mass[(i, j)];
-                            transfer[at] += element.transfer[(i, j)];
-                            flow[at] += element.flow[(i, j)];
-                            for b in 0..directions {
-                                elastic[(at.0, column * directions + b)] += sign * element.elastic[(a, b)];
+                let of = element.matrices();
+                for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let sign = if i == j { 1.0 } else { -1.0 };
+                    for a in 0..directions {
+                        for b in 0..directions {
+                            for &(row, left) in &unknowns(k + i, a) {
+                                for &(column, right) in &unknowns(k + j, b) {
+                                    let (at, factor) = ((row, column), left * right);
+                                    if a == b {
+                                        mass[at] += factor * of.mass[(i, j)];
+                                        transfer[at] += factor * of.transfer[(i, j)];
+                                        flow[at] += factor * of.flow[(i, j)];
+                                    }
+                                    elastic[at] += factor * sign * of.elastic[(a, b)];
+                                }
                             }
                         }
                     }
                 }
             }
-            next += chain.inner_nodes();
+            next += directions * chain.inner_nodes();
         }
 
         let lower = mass.cholesky().ok_or(NotConverged)?.unpack();
@@ -151,16 +156,14 @@ fn eigenvalues(matrix: &DMatrix<f64>) -> Option<Vec<Complex<f64>>> {
 mod tests {
     use super::*;
     use crate::mechanics::Chain;
-    use crate::robot::{Motion, paper};
-    use crate::stability::Spectra;
-    use crate::study::Local;
+    use crate::robot::paper_spec;
+    use crate::stability::{Spectra, problems};
 
     /// What rounding may do covers what it does to the eigenvalues, which the iteration by structure knows better, and not
     /// much more. In a unit of time half as long it is half of that.
     #[test]
     fn rounding_is_that_of_the_matrix() {
-        let Local { vibration, .. } =
-            Local::new(&paper().unwrap(), &Motion::new([2.0, 0.5], [1.0, 0.0], 5.0).unwrap()).unwrap();
+        let vibration = problems::of_robot(paper_spec(), [2.0, 0.5], [1.0, 0.0]);
         let of = |vibration: &Vibration, speed| Eigenproblem::new(vibration).unwrap().spectrum(speed).unwrap();
         let (found, exact) = (of(&vibration, 5.0), Spectra::new(&vibration).unwrap().iterate(5.0).unwrap());
         let off = |value: Complex<f64>| {
@@ -171,7 +174,10 @@ mod tests {
         assert!(off < claimed && claimed < 100.0 * off, "{off:e} off, {claimed:e} claimed");
         let mut faster = vibration.clone();
         faster.damping = Damping { alpha: 2.0 * faster.damping.alpha, beta: 0.5 * faster.damping.beta };
-        faster.chains.iter_mut().flat_map(Chain::elements_mut).for_each(|element| element.elastic *= 4.0);
+        faster.chains.iter_mut().flat_map(Chain::elements_mut).for_each(|element| {
+            element.stiffness.along *= 4.0;
+            element.stiffness.across *= 4.0;
+        });
         let half = 0.5 * of(&faster, 10.0).rounding(Complex::from(0.0));
         assert!((half - claimed).abs() < 1e-12 * claimed, "{half:e} {claimed:e}");
     }

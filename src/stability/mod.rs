@@ -10,6 +10,9 @@ mod crossing;
 mod dense;
 mod jet;
 mod modes;
+mod polynomial;
+#[cfg(test)]
+mod problems;
 mod rest;
 mod sensitivity;
 mod spectrum;

@@ -6,7 +6,7 @@
 
 use nalgebra::Complex;
 
-use crate::mechanics::{Hub, Vibration};
+use crate::mechanics::Vibration;
 use crate::stability::modes::responsible_cable;
 use crate::stability::{Critical, Kind, Mode, NotConverged, Polarisation, Spectra, mode};
 
@@ -88,18 +88,19 @@ impl FromRest {
 /// −x* C x/(2 x* M x) in 1/s per m/s, and the size of what it is the sum of; not a number where the shape is not known.
 fn growth(vibration: &Vibration, mode: &Mode) -> [f64; 2] {
     let (mut transfer, mut size, mut mass) = (0.0, 0.0, 0.0);
-    if let (Hub::Platform(platform), Some(nodes)) = (vibration.hub, mode.displacement.first()) {
+    if let (Some(platform), Some(nodes)) = (vibration.hub.platform_mass(), mode.displacement.first()) {
         mass = platform * nodes[0].norm_squared();
     }
     for (chain, nodes) in vibration.chains.iter().zip(&mode.displacement) {
         for (element, pair) in chain.elements().iter().zip(nodes.windows(2)) {
+            let (flow, inertia) = (element.transfer(), element.mass());
             for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 let product = pair[i].dotc(&pair[j]).re;
-                transfer += element.transfer[(i, j)] * product;
-                mass += element.mass[(i, j)] * product;
+                transfer += flow[(i, j)] * product;
+                mass += inertia[(i, j)] * product;
             }
             // The symmetric part alone: the rest is large, and nothing but rounding.
-            let own = [0, 1].map(|i| element.transfer[(i, i)].abs() * pair[i].norm_squared());
+            let own = [0, 1].map(|i| flow[(i, i)].abs() * pair[i].norm_squared());
             size += own[0] + own[1];
         }
     }

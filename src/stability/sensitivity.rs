@@ -13,9 +13,10 @@
 use std::f64::consts::TAU;
 
 use nalgebra::{Complex, Matrix2};
+use num_dual::{Dual64, DualNum};
 
-use super::modes::{Displacement, frequency_scale};
-use crate::mechanics::{Chain, Hub, Vibration};
+use super::modes::{Displacement, frequency_scale, left_shape};
+use crate::mechanics::{Element, Matrices, Vibration};
 use crate::robot::Damping;
 use crate::stability::{Characteristic, Critical, Polarisation, mode};
 
@@ -23,8 +24,9 @@ type C64 = Complex<f64>;
 
 /// Within this part of |λ| an eigenvalue must be alone to count as simple.
 const ALONE: f64 = 1e-6;
-/// Points of the circle on which the eigenvalues inside are counted, and how far from one the count may be.
+/// The eigenvalues inside a circle are counted by its values at this many points.
 const CIRCLE: u32 = 8;
+/// The count of a single eigenvalue differs from 1 by less than this.
 const COUNT: f64 = 0.1;
 /// A crossing at a smaller angle to the axis than this, Re `λ_v`/|`λ_v`|, is a touch.
 const TRANSVERSAL: f64 = 1e-6;
@@ -93,9 +95,9 @@ impl Crossing {
         if !is_simple(vibration, lambda, speed) {
             return Err(NoSensitivity::NotSimple);
         }
-        let shape = |vibration| mode(vibration, speed, lambda, Polarisation::default()).displacement;
-        let (right, left) = (shape(vibration), shape(&transposed(vibration)));
-        let forms = Forms::of(vibration, &left, &right);
+        let right = mode(vibration, speed, lambda, Polarisation::default()).displacement;
+        let left = left_shape(vibration, speed, lambda, Polarisation::default());
+        let forms = Forms::of(vibration, &left, &right, |mass| mass, Element::matrices);
         let Damping { alpha, beta } = vibration.damping;
         let by_lambda = forms.mass * (lambda * 2.0 + alpha) + forms.transfer * speed + forms.elastic * beta;
         let slope = -(forms.transfer * lambda + forms.flow * (2.0 * speed)) / by_lambda;
@@ -108,10 +110,10 @@ impl Crossing {
         Ok(Self { lambda, speed, damping: vibration.damping, right, left, forms, by_lambda, slope })
     }
 
-    /// The shift per unit of a parameter, given the derivatives of the matrices with respect to it in the form of a
-    /// problem, α and β unchanged: [`Vibration::derivative`].
-    pub fn shift(&self, derivative: &Vibration) -> Shift {
-        let forms = Forms::of(derivative, &self.left, &self.right);
+    /// The shift per unit of a parameter, given the problem in dual numbers along it: [`Vibration::along`]. α and β are
+    /// unchanged.
+    pub fn shift(&self, along: &Vibration<Dual64>) -> Shift {
+        let forms = Forms::of(along, &self.left, &self.right, |mass| mass.eps, Element::derivatives);
         let (lambda, speed, Damping { alpha, beta }) = (self.lambda, self.speed, self.damping);
         self.shift_by(
             forms.mass * lambda * (lambda + alpha)
@@ -126,7 +128,7 @@ impl Crossing {
         self.shift_by(self.lambda * (self.forms.mass * change.alpha + self.forms.elastic * change.beta))
     }
 
-    /// The shift per unit of what yᵀ `Q_p` x is given for.
+    /// The shift per unit of a parameter p, given `form` = yᵀ `Q_p` x.
     fn shift_by(&self, form: C64) -> Shift {
         let by_parameter = -form / self.by_lambda;
         let speed = -by_parameter.re / self.slope.re;
@@ -135,34 +137,31 @@ impl Crossing {
 }
 
 impl Forms {
-    /// Of the matrices in `vibration` with two shapes.
-    fn of(vibration: &Vibration, left: &[Vec<Displacement>], right: &[Vec<Displacement>]) -> Self {
+    /// Of `vibration` with two shapes; `platform` and `element` tell which matrices are meant.
+    fn of<D: DualNum<Primitive = f64> + Copy>(
+        vibration: &Vibration<D>,
+        left: &[Vec<Displacement>],
+        right: &[Vec<Displacement>],
+        platform: impl Fn(D) -> f64,
+        matrices: impl Fn(&Element<D>) -> Matrices,
+    ) -> Self {
         let mut forms = Self::default();
-        if let (Hub::Platform(mass), [left, ..], [right, ..]) = (vibration.hub, left, right) {
-            forms.mass = left[0].dot(&right[0]) * mass;
+        if let (Some(mass), [left, ..], [right, ..]) = (vibration.hub.platform_mass(), left, right) {
+            forms.mass = left[0].dot(&right[0]) * platform(mass);
         }
         for (chain, (left, right)) in vibration.chains.iter().zip(left.iter().zip(right)) {
             for (element, (y, x)) in chain.elements().iter().zip(left.windows(2).zip(right.windows(2))) {
+                let Matrices { mass, transfer, flow, elastic } = matrices(element);
                 let products = Matrix2::from_fn(|i, j| y[i].dot(&x[j]));
                 let form = |block: &Matrix2<f64>| products.zip_map(block, |product, entry| product * entry).sum();
-                forms.mass += form(&element.mass);
-                forms.transfer += form(&element.transfer);
-                forms.flow += form(&element.flow);
-                forms.elastic += (y[0] - y[1]).dot(&(element.elastic.map(C64::from) * (x[0] - x[1])));
+                forms.mass += form(&mass);
+                forms.transfer += form(&transfer);
+                forms.flow += form(&flow);
+                forms.elastic += (y[0] - y[1]).dot(&(elastic.map(C64::from) * (x[0] - x[1])));
             }
         }
         forms
     }
-}
-
-/// The problem whose matrices are the transposed ones.
-fn transposed(vibration: &Vibration) -> Vibration {
-    let mut transposed = vibration.clone();
-    for element in transposed.chains.iter_mut().flat_map(Chain::elements_mut) {
-        element.transfer.transpose_mut();
-        element.flow.transpose_mut();
-    }
-    transposed
 }
 
 /// Whether just one eigenvalue is nearer to λ than [`ALONE`] allows, of those of one direction where the problem is
@@ -181,29 +180,37 @@ fn is_simple(vibration: &Vibration, lambda: C64, speed: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::{Block, Element};
+    use crate::mechanics::{Chain, Hub, Stiffness};
+    use crate::robot::Vec2;
     use crate::stability::Kind;
 
-    /// An element of one node that moves, the other being held: a = 3 times the mass, the rest as given.
-    fn element(mass: f64, transfer: f64, elastic: f64) -> Element {
-        Element {
-            mass: Block::identity() * mass,
-            transfer: Block::identity() * transfer,
-            flow: Block::zeros(),
-            elastic: Matrix2::identity() * elastic,
-        }
+    /// An element of two that hold one node between fixed ends. Together they give it the mass 2m, C = 2c and the stiffness
+    /// 2k; D is zero, since the rate of the inflow makes up for its square.
+    fn element<D: DualNum<Primitive = f64> + Copy>(m: D, c: D, k: D) -> Element<D> {
+        let (l, still) = (D::from(0.5), D::from(0.0));
+        let mu = m / l * 3.0;
+        // On both diagonals together C has μ (w₁ − w₀)/3, and D has μ (ẇ₁ − ẇ₀)/6 − 2 μ w₁²/(3 l), for w₀ = 0.
+        let inflow = c / mu * 6.0;
+        let rate = inflow * inflow / l * 4.0;
+        let direction = Vec2::new(1.0, 0.0).map(D::from);
+        let stiffness = Stiffness { direction, along: k * l, across: k * l };
+        Element::at_rest(mu, l, stiffness).with_inflow([still, inflow], [still, rate])
     }
 
-    /// Cables of two elements with fixed ends do not know of each other: single oscillators
-    /// 2m q̈ + (2 v c + 2 α m) q̇ + 2k q = 0 with c < 0, which lose stability at v = −α m/c with ω² = k/m.
-    fn oscillators(elastic: &[f64]) -> Vibration {
-        let chain = |&k: &f64| Chain::new(vec![element(1.0, -0.1, k); 2]).unwrap();
+    /// Such nodes do not know of each other. They are single oscillators 2m q̈ + (2 v c + 2 α m) q̇ + 2k q = 0, which lose
+    /// stability at v = −α m/c with ω² = k/m, given m, c < 0 and several k.
+    fn oscillators<D: DualNum<Primitive = f64> + Copy>(m: D, c: D, elastic: &[D]) -> Vibration<D> {
+        let chain = |&k: &D| Chain::new(vec![element(m, c, k); 2]).unwrap();
         Vibration {
             chains: elastic.iter().map(chain).collect(),
-            hub: Hub::Fixed,
+            hub: Hub::fixed(elastic.len()),
             damping: Damping { alpha: 0.5, beta: 0.0 },
             isotropic: true,
         }
+    }
+
+    fn plain(elastic: &[f64]) -> Vibration {
+        oscillators(1.0, -0.1, elastic)
     }
 
     fn critical(omega: f64, speed: f64) -> Critical {
@@ -212,36 +219,33 @@ mod tests {
 
     #[test]
     fn an_oscillator_shifts_as_its_formula_says() {
-        let crossing = Crossing::new(&oscillators(&[4.0, 9.0]), &critical(2.0, 5.0)).expect("a simple crossing");
+        let crossing = Crossing::new(&plain(&[4.0, 9.0]), &critical(2.0, 5.0)).expect("a simple crossing");
         // dv/dα = −m/c, dω/dα = 0.
         let shift = crossing.shift_by_damping(Damping { alpha: 1.0, beta: 0.0 });
         assert!((shift.speed - 10.0).abs() < 1e-12 && shift.omega.abs() < 1e-12, "{shift:?}");
         // With m ∂/∂m: dv = v, dω = −ω/2.
-        let mut derivative = oscillators(&[0.0, 0.0]);
-        for element in derivative.chains.iter_mut().flat_map(Chain::elements_mut) {
-            element.transfer = Block::zeros();
-        }
-        let shift = crossing.shift(&derivative);
+        let along = oscillators(Dual64::new(1.0, 1.0), Dual64::from(-0.1), &[4.0, 9.0].map(Dual64::from));
+        let shift = crossing.shift(&along);
         assert!((shift.speed - 5.0).abs() < 1e-12 && (shift.omega + 1.0).abs() < 1e-12, "{shift:?}");
     }
 
     #[test]
     fn what_has_no_derivative_is_told() {
         let reason = |elastic: &[f64], omega, speed| {
-            Crossing::new(&oscillators(elastic), &critical(omega, speed)).map(|_| ()).expect_err("no derivative")
+            Crossing::new(&plain(elastic), &critical(omega, speed)).map(|_| ()).expect_err("no derivative")
         };
         assert_eq!(reason(&[4.0, 4.0], 2.0, 5.0), NoSensitivity::NotSimple);
         assert_eq!(reason(&[4.0, 4.0 * (1.0 + 1e-8)], 2.0, 5.0), NoSensitivity::NotSimple);
         assert_eq!(reason(&[4.0, 9.0], 2.1, 5.0), NoSensitivity::NotSimple);
         // Three times as far away as counts.
-        let beside = oscillators(&[4.0, 4.0 * (1.0 + 6.0 * ALONE)]);
+        let beside = plain(&[4.0, 4.0 * (1.0 + 6.0 * ALONE)]);
         assert!(Crossing::new(&beside, &critical(2.0, 5.0)).is_ok(), "alone");
         assert_eq!(reason(&[4.0, 9.0], 2.0, 0.0), NoSensitivity::FromRest);
         // Nothing depends on the speed.
-        let mut still = oscillators(&[4.0, 9.0]);
+        let mut still = plain(&[4.0, 9.0]);
         still.damping.alpha = 0.0;
         for element in still.chains.iter_mut().flat_map(Chain::elements_mut) {
-            element.transfer = Block::zeros();
+            *element = element.with_inflow([0.0; 2], [0.0; 2]);
         }
         assert_eq!(Crossing::new(&still, &critical(2.0, 5.0)).err(), Some(NoSensitivity::NotTransversal));
     }

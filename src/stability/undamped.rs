@@ -3,10 +3,10 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Matrix2;
-use num_dual::{Dual64, DualNum};
+use nalgebra::{Const, DMatrix, Dyn, Matrix1, Matrix2, OMatrix};
+use num_dual::Dual64;
 
-use crate::mechanics::{Block, Chain, Element, Hub, Vibration};
+use crate::mechanics::{Arrow, Chain, Element, Vibration};
 
 /// Cables that are equal have estimates that differ by parts of this, so that each leads to an eigenvalue of its own.
 const APART: f64 = 0.02;
@@ -26,7 +26,7 @@ pub(super) fn squares(vibration: &Vibration) -> Vec<f64> {
         let n = chain.elements().len() as f64;
         for direction in 0..directions {
             golden = (golden + 0.618_033_988_749_895).fract();
-            let travel: f64 = chain.elements().iter().map(|e| (line_mass(e) / stiffnesses(e)[direction]).sqrt()).sum();
+            let travel: f64 = chain.elements().iter().map(|e| (e.total_mass() / springs(e)[direction]).sqrt()).sum();
             let uniform = (n / travel).powi(2) * (1.0 + APART * (golden - 0.5));
             squares.extend((1..chain.elements().len()).map(|j| {
                 let cosine = (PI * j as f64 / n).cos();
@@ -34,9 +34,9 @@ pub(super) fn squares(vibration: &Vibration) -> Vec<f64> {
             }));
         }
         stiffness += in_series(chain);
-        mass += chain.elements().iter().map(line_mass).sum::<f64>() / 3.0;
+        mass += chain.elements().iter().map(Element::total_mass).sum::<f64>() / 3.0;
     }
-    if let Hub::Platform(platform) = vibration.hub {
+    if let Some(platform) = vibration.hub.platform_mass() {
         let springs = stiffness.symmetric_eigenvalues() / (platform + mass);
         squares.extend(springs.iter().take(directions));
     }
@@ -46,7 +46,7 @@ pub(super) fn squares(vibration: &Vibration) -> Vec<f64> {
 /// A frequency (rad/s) that no undamped mode exceeds: that of the stiffest element by itself.
 pub(super) fn largest_frequency(vibration: &Vibration) -> f64 {
     let elements = vibration.chains.iter().flat_map(Chain::elements);
-    elements.map(|e| 12.0 * stiffnesses(e)[1] / line_mass(e)).fold(0.0, f64::max).sqrt()
+    elements.map(|e| 12.0 * springs(e)[1] / e.total_mass()).fold(0.0, f64::max).sqrt()
 }
 
 /// The traces of M⁻¹ K (1/s²) and of M⁻¹ C (1/m), of one direction where the problem is isotropic.
@@ -55,71 +55,48 @@ pub(super) fn largest_frequency(vibration: &Vibration) -> f64 {
 pub(super) fn traces(vibration: &Vibration) -> [f64; 2] {
     let directions = if vibration.isotropic { 1.0 } else { 2.0 };
     let elastic = |e: &Element| {
-        let k = if vibration.isotropic { e.elastic[(0, 0)] } else { e.elastic.trace() };
-        Block::new(k, -k, -k, k)
+        let [along, across] = e.springs();
+        let k = if vibration.isotropic { across } else { along + across };
+        Matrix2::new(k, -k, -k, k)
     };
-    [trace(vibration, elastic), trace(vibration, |e| e.transfer * directions)]
+    [trace(vibration, elastic), trace(vibration, |e| e.transfer() * directions)]
 }
 
 /// The trace of M⁻¹ X for one direction, X given per element.
-fn trace(vibration: &Vibration, of: impl Fn(&Element) -> Block) -> f64 {
-    let entry = |e: &Element, i: usize, j: usize| Dual64::new(e.mass[(i, j)], of(e)[(i, j)]);
-    let (mut log, mut hub) = (Dual64::from(0.0), Dual64::from(0.0));
-    for elements in vibration.chains.iter().map(Chain::elements) {
-        let mut outer = Dual64::from(0.0);
-        for pair in elements.windows(2).rev() {
-            let pivot = entry(&pair[0], 1, 1) + entry(&pair[1], 0, 0) - outer;
-            outer = entry(&pair[0], 0, 1) * entry(&pair[0], 1, 0) / pivot;
-            log += pivot.ln();
-        }
-        hub += entry(&elements[0], 0, 0) - outer;
-    }
-    if let Hub::Platform(mass) = vibration.hub {
-        log += (hub + mass).ln();
-    }
-    log.eps
+fn trace(vibration: &Vibration, of: impl Fn(&Element) -> Matrix2<f64>) -> f64 {
+    let platform: Vec<Dual64> = vibration.hub.platform_mass().into_iter().map(Dual64::from).collect();
+    let joint = OMatrix::<Dual64, Const<1>, Dyn>::identity(platform.len());
+    let chains = vibration.chains.iter().map(|chain| (chain.elements(), joint.clone()));
+    let blocks = |e: &Element| {
+        let (mass, x) = (e.mass(), of(e));
+        [0, 1].map(|i| [0, 1].map(|j| Matrix1::new(Dual64::new(mass[(i, j)], x[(i, j)]))))
+    };
+    Arrow::factor(DMatrix::from_diagonal(&platform.into()), chains, blocks).log_det().eps
 }
 
-/// μ l in kg.
-fn line_mass(element: &Element) -> f64 {
-    3.0 * element.mass[(0, 0)]
-}
-
-/// The eigenvalues of A/l in N/m, the smaller one first.
-fn stiffnesses(element: &Element) -> [f64; 2] {
-    let k = &element.elastic;
-    let (mean, radius) = (0.5 * (k[(0, 0)] + k[(1, 1)]), (0.5 * (k[(0, 0)] - k[(1, 1)])).hypot(k[(0, 1)]));
-    [mean - radius, mean + radius]
+/// The element's stiffnesses along and across in N/m, the smaller one first.
+fn springs(element: &Element) -> [f64; 2] {
+    let [along, across] = element.springs();
+    [along.min(across), along.max(across)]
 }
 
 /// The stiffness that a cable without mass holds the platform with.
 fn in_series(chain: &Chain) -> Matrix2<f64> {
     let compliance =
-        chain.elements().iter().filter_map(|e| e.elastic.try_inverse()).fold(Matrix2::zeros(), |a, b| a + b);
+        chain.elements().iter().filter_map(|e| e.elastic().try_inverse()).fold(Matrix2::zeros(), |a, b| a + b);
     compliance.try_inverse().unwrap_or_else(Matrix2::zeros)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::{Material, elastic, flow_stiffness, mass, transfer};
-    use crate::robot::{Damping, Linearisation, Motion, Robot, RobotSpec, Strain, Vec2, paper_spec};
-    use crate::stability::Eigenproblem;
-    use crate::study::Local;
+    use crate::mechanics::Hub;
+    use crate::robot::{Damping, Linearisation, RobotSpec, paper_spec};
+    use crate::stability::{Eigenproblem, problems};
 
-    /// Straight cables of (unstretched length, tension), in a slanted direction.
+    /// Straight cables of (unstretched length, tension).
     fn straight(cables: &[[f64; 2]], hub: Hub, linearisation: Linearisation) -> Vibration {
-        let material = Material { axial_stiffness: 6250.0, strain: Strain::Green };
-        let chain = |&[length, tension]: &[f64; 2]| {
-            let l = length / 7.0;
-            let element = Element {
-                mass: mass(0.4, l),
-                transfer: transfer(0.4, [0.0; 2]),
-                flow: flow_stiffness(0.4, l, [0.0; 2], [0.0; 2]),
-                elastic: elastic(material, linearisation, l, Vec2::new(0.6, 0.8) * tension),
-            };
-            Chain::new(vec![element; 7]).unwrap()
-        };
+        let chain = |&[length, tension]: &[f64; 2]| problems::straight(7, length, tension, [0.0; 2], linearisation);
         Vibration {
             chains: cables.iter().map(chain).collect(),
             hub,
@@ -132,7 +109,7 @@ mod tests {
     #[test]
     fn estimates_for_uniform_cables_are_right() {
         for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
-            let vibration = straight(&[[3.0, 90.0], [11.0, 40.0], [11.0, 40.0]], Hub::Fixed, linearisation);
+            let vibration = straight(&[[3.0, 90.0], [11.0, 40.0], [11.0, 40.0]], Hub::fixed(3), linearisation);
             let sorted = |mut squares: Vec<f64>| {
                 squares.sort_by(f64::total_cmp);
                 squares
@@ -151,13 +128,13 @@ mod tests {
     #[test]
     fn the_estimate_for_the_platform_is_right() {
         for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
-            let vibration = straight(&[[3.0, 90.0], [11.0, 40.0]], Hub::Platform(1e4), linearisation);
+            let vibration = straight(&[[3.0, 90.0], [11.0, 40.0]], Hub::point(1e4, 2), linearisation);
             let exact = Eigenproblem::new(&vibration).unwrap().undamped_squares();
             let lowest = exact.iter().copied().fold(f64::INFINITY, f64::min);
             let estimates = squares(&vibration);
             let estimate = estimates.iter().copied().fold(f64::INFINITY, f64::min);
             assert!((estimate / lowest - 1.0).abs() < 1e-5, "{estimate} {lowest}");
-            let light = straight(&[[3.0, 90.0], [11.0, 40.0]], Hub::Platform(0.0), linearisation);
+            let light = straight(&[[3.0, 90.0], [11.0, 40.0]], Hub::point(0.0, 2), linearisation);
             let ratio = *estimates.last().unwrap() / squares(&light).last().unwrap();
             let third = 0.4 * 14.0 / 3.0;
             assert!((ratio / (third / (1e4 + third)) - 1.0).abs() < 1e-12, "{ratio}");
@@ -168,21 +145,21 @@ mod tests {
     #[test]
     fn traces_are_the_sums_of_the_eigenvalues() {
         for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
-            let robot = Robot::new(RobotSpec { elements: 7, linearisation, ..paper_spec() }).unwrap();
-            let local = Local::new(&robot, &Motion::new([2.0, 0.5], [1.0, 0.4], 5.0).unwrap()).unwrap();
-            let dense = Eigenproblem::new(&local.vibration).unwrap();
+            let spec = RobotSpec { elements: 7, linearisation, ..paper_spec() };
+            let (vibration, damping) = (problems::of_robot(spec.clone(), [2.0, 0.5], [1.0, 0.4]), spec.damping);
+            let dense = Eigenproblem::new(&vibration).unwrap();
             let squares = dense.undamped_squares();
-            let [elastic, transfer] = traces(&local.vibration);
+            let [elastic, transfer] = traces(&vibration);
             let sum: f64 = squares.iter().sum();
             assert!((elastic - sum).abs() < 1e-10 * sum, "{elastic} {sum}");
-            let each = if local.vibration.isotropic { 2.0 } else { 1.0 };
+            let each = if vibration.isotropic { 2.0 } else { 1.0 };
             let speed = 3.0;
-            let damping = robot.damping.alpha * squares.len() as f64 + robot.damping.beta * sum + speed * transfer;
+            let damping = damping.alpha * squares.len() as f64 + damping.beta * sum + speed * transfer;
             let total: f64 = dense.spectrum(speed).unwrap().eigenvalues().map(|l| l.re).sum();
             assert!((total / each + damping).abs() < 1e-9 * damping, "{total} {damping}");
             let largest = squares.iter().copied().fold(0.0, f64::max).sqrt();
-            assert!((largest..2.0 * largest).contains(&largest_frequency(&local.vibration)));
-            assert_eq!(super::squares(&local.vibration).len(), squares.len());
+            assert!((largest..2.0 * largest).contains(&largest_frequency(&vibration)));
+            assert_eq!(super::squares(&vibration).len(), squares.len());
             // The largest entry of a matrix is at most its largest eigenvalue, and at least that over its size.
             assert!((largest / (squares.len() as f64).sqrt()..=largest).contains(&dense.scale()), "{}", dense.scale());
         }

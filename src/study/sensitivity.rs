@@ -52,8 +52,8 @@ pub async fn sensitivities_in_steps(
             Knob::Alpha => crossing.shift_by_damping(Damping { beta: 0.0, ..damping }),
             Knob::Beta => crossing.shift_by_damping(Damping { alpha: 0.0, ..damping }),
             _ => {
-                let derivative = Vibration::derivative(robot, &statics, motion.direction(), knob);
-                crossing.shift(&derivative.ok_or(out_of_range)?)
+                let along = Vibration::along(robot, &statics, motion.direction(), knob);
+                crossing.shift(&along.ok_or(out_of_range)?)
             }
         };
         let speed = shift.speed / critical.speed;

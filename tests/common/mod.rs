@@ -26,6 +26,11 @@ pub fn close(actual: f64, expected: f64, tolerance: f64, what: impl Display) {
     assert!(error <= tolerance, "{what}: {actual:e}, expected {expected:e}: off by {error:e}, allowed {tolerance:e}");
 }
 
+/// The two cables that hold a platform which is a point.
+pub fn pair(robot: &Robot) -> [usize; 2] {
+    robot.equilibrium().try_into().expect("two cables")
+}
+
 /// The crate's dense solver for the same problem.
 pub fn eigenproblem(local: &Local) -> Eigenproblem {
     Eigenproblem::new(&local.vibration).expect("a problem")

@@ -4,8 +4,8 @@ use tautline::Robot;
 use tautline::mechanics::{self, CableShape, Failure, Infeasible, LengthRates, Statics, StaticsError, length_rates};
 use tautline::robot::{Cable, TensionLaw, Vec2};
 
-use super::close;
 use super::hung::{self, Hung};
+use super::{close, pair};
 
 /// The tension that a cable's law prescribes.
 pub fn prescribed(cable: &Cable, at: Vec2) -> Option<f64> {
@@ -56,14 +56,14 @@ pub fn check_shape(robot: &Robot, platform: Vec2, anchor: Vec2, shape: &CableSha
 /// All shapes satisfy their equations, prescribed tensions are met, and the platform is in balance.
 pub fn check_statics(robot: &Robot, found: &Statics) {
     let law = Hung::of(robot);
-    let [a, b] = robot.pair().map(|i| (robot.cables[i].anchor - found.position).normalize());
+    let [a, b] = pair(robot).map(|i| (robot.cables[i].anchor - found.position).normalize());
     // Directions have rounding, in both coordinates of both equilibrium cables one of every element, and their tensions have as
     // much more as these are nearer to one line. Newton's method comes as near as that; the square of it is left.
     let ill = 8.0 * f64::EPSILON * (robot.elements + 8) as f64 / a.perp(&b).abs();
     let own_weight = Vec2::new(0.0, robot.platform_mass * robot.gravity);
     let (mut sum, mut size) = (-own_weight, own_weight.norm());
     for (i, (cable, shape)) in robot.cables.iter().zip(&found.cables).enumerate() {
-        let ill = if robot.pair().contains(&i) { ill } else { 0.0 };
+        let ill = if robot.equilibrium().contains(&i) { ill } else { 0.0 };
         check_shape(robot, found.position, cable.anchor, shape, ill);
         let force = law.platform_force(shape);
         sum += force;
@@ -87,7 +87,7 @@ pub fn load<'a>(robot: &Robot, prescribed: impl Iterator<Item = &'a CableShape>)
 
 /// The tensions of the equilibrium cables if they were straight, by Cramer's rule.
 pub fn straight_tensions(robot: &Robot, platform: Vec2, load: Vec2) -> [f64; 2] {
-    let [a, b] = robot.pair().map(|i| (robot.cables[i].anchor - platform).normalize());
+    let [a, b] = pair(robot).map(|i| (robot.cables[i].anchor - platform).normalize());
     let determinant = a.x * b.y - a.y * b.x;
     [(load.x * b.y - load.y * b.x) / determinant, (a.x * load.y - a.y * load.x) / determinant]
 }
@@ -124,23 +124,23 @@ pub fn check_verdict(robot: &Robot, platform: Vec2, found: &Result<Statics, Fail
             assert!(tension <= 0.0, "{tensions:?} at {platform:?}");
             let size = tensions[0].abs() + tensions[1].abs();
             // Their directions have rounding, which counts as much more as the cables are nearer to one line.
-            let [a, b] = robot.pair().map(|i| chord(i).normalize());
+            let [a, b] = pair(robot).map(|i| chord(i).normalize());
             let rounding = 8.0 * f64::EPSILON / a.perp(&b).abs() * size;
             let weakest = usize::from(tensions[1] < tensions[0]);
             let tie = (tensions[0] - tensions[1]).abs() <= rounding;
-            assert!(tie || cable == robot.pair()[weakest], "{tensions:?} at {platform:?}");
+            assert!(tie || cable == pair(robot)[weakest], "{tensions:?} at {platform:?}");
             close(tension, tensions[weakest], 1e-9 * size + rounding, "the tension of the cable that would push");
         }
         Infeasible::OneLine { .. } => {
-            let [a, b] = robot.pair().map(|i| chord(i).normalize());
+            let [a, b] = pair(robot).map(|i| chord(i).normalize());
             close(a.perp(&b), 0.0, 1e-6, "sine of the angle between the two cables");
         }
         Infeasible::GoesSlack { cable } => {
-            assert!(robot.pair().contains(&cable));
+            assert!(robot.equilibrium().contains(&cable));
             let tensions = straight_tensions(robot, platform, load());
             assert!(tensions[0] > 0.0 && tensions[1] > 0.0, "{tensions:?} at {platform:?}");
             if thorough {
-                let curves = robot.pair().map(|i| law.curve(chord(i)));
+                let curves = pair(robot).map(|i| law.curve(chord(i)));
                 let shapes = hung::crossings(&curves, load());
                 assert!(shapes.is_empty(), "{reason} at {platform:?}, but there is {shapes:?}");
             }

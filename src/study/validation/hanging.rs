@@ -69,7 +69,7 @@ impl Hanging {
         let at_rest = [LengthRates { first: 0.0, second: 0.0 }; 3];
         let vibration = Vibration::new(&robot, &statics, &at_rest).ok_or(Failed::Nothing("problem"))?;
         let own = vibration.chains().iter().skip(2).cloned().collect();
-        let alone = Vibration::of_cables(own, Hub::Fixed, robot.damping, false).ok_or(Failed::Nothing("cable"))?;
+        let alone = Vibration::of_cables(own, Hub::fixed(1), robot.damping, false).ok_or(Failed::Nothing("cable"))?;
         let shape = statics.cables.into_iter().nth(2).ok_or(Failed::Nothing("third cable"))?;
         Ok((shape, alone))
     }

@@ -2,8 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
+use nalgebra::{Const, DMatrix, DVector, Dyn, Matrix1, Matrix2, OMatrix, Vector1};
+
 use super::{Failed, Outcome, limit};
-use crate::mechanics::{self, Block, Chain, Element, Hub, Material, Vibration};
+use crate::mechanics::{Arrow, ArrowVector, Chain, Element, Hub, Material, Stiffness, Vibration};
 use crate::robot::{Damping, Linearisation, Strain, Vec2};
 use crate::stability::{self, CriticalSearch, Eigenproblem};
 
@@ -21,17 +23,16 @@ fn wave_speed() -> f64 {
     (TENSION / MATERIAL.stretch(TENSION) / MU).sqrt()
 }
 
+/// An element of the unstretched length l (m) whose material does not move.
+fn element(l: f64) -> Element {
+    Element::at_rest(MU, l, Stiffness::new(MATERIAL, Linearisation::Secant, Vec2::new(TENSION, 0.0)))
+}
+
 /// A string of n elements with the flow `inflow(k)` = [w₀, w₁] through element k, in m/s.
 fn string(n: usize, damping: Damping, inflow: impl Fn(usize) -> [f64; 2]) -> Result<Vibration, Failed> {
-    let l = LENGTH / n as f64;
-    let elements = (0..n).map(|k| Element {
-        mass: mechanics::mass(MU, l),
-        transfer: mechanics::transfer(MU, inflow(k)),
-        flow: mechanics::flow_stiffness(MU, l, inflow(k), [0.0, 0.0]),
-        elastic: mechanics::elastic(MATERIAL, Linearisation::Secant, l, Vec2::new(TENSION, 0.0)),
-    });
+    let elements = (0..n).map(|k| element(LENGTH / n as f64).with_inflow(inflow(k), [0.0, 0.0]));
     let chain = Chain::new(elements.collect()).ok_or(Failed::Nothing("element"))?;
-    Vibration::of_cables(vec![chain], Hub::Fixed, damping, true).ok_or(Failed::Nothing("cable"))
+    Vibration::of_cables(vec![chain], Hub::fixed(1), damping, true).ok_or(Failed::Nothing("cable"))
 }
 
 /// The lowest frequency in Hz of a string that travels at v, for ever finer meshes: expected is (c² − v²)/(2 L c).
@@ -140,29 +141,25 @@ impl Reeled {
     fn acceleration(&self, time: f64, q: &[f64], u: &[f64]) -> Vec<f64> {
         let n = q.len() - 1;
         let (l, l_rate) = ((LENGTH + self.rate * time) / n as f64, self.rate / n as f64);
-        let spring = mechanics::elastic(MATERIAL, Linearisation::Secant, l, Vec2::new(TENSION, 0.0))[(0, 0)];
-        let mut force = vec![0.0; n + 1];
-        for k in 0..n {
-            let w = [-(k as f64) * l_rate, -((k + 1) as f64) * l_rate];
-            let stiffness = mechanics::flow_stiffness(MU, l, w, [0.0, 0.0]) + Block::new(1.0, -1.0, -1.0, 1.0) * spring;
-            let part = mechanics::transfer(MU, w) * Vec2::new(u[k], u[k + 1]) + stiffness * Vec2::new(q[k], q[k + 1]);
-            force[k] -= part.x;
-            force[k + 1] -= part.y;
+        let inflow = |k: usize| [-(k as f64) * l_rate, -((k + 1) as f64) * l_rate];
+        let elements: Vec<Element> = (0..n).map(|k| element(l).with_inflow(inflow(k), [0.0, 0.0])).collect();
+        let mut force = vec![Vector1::zeros(); n + 1];
+        for (k, element) in elements.iter().enumerate() {
+            let [_, spring] = element.springs();
+            let stiffness = element.flow_stiffness() + Matrix2::new(1.0, -1.0, -1.0, 1.0) * spring;
+            let part = element.transfer() * Vec2::new(u[k], u[k + 1]) + stiffness * Vec2::new(q[k], q[k + 1]);
+            force[k].x -= part.x;
+            force[k + 1].x -= part.y;
         }
-        // M is tridiagonal, with the same row everywhere: eliminated from the one end, solved from the other.
-        let mass = mechanics::mass(MU, l);
-        let (diagonal, beside) = (mass.m11 + mass.m22, mass.m12);
-        let mut pivots = vec![diagonal; n];
-        for k in 2..n {
-            let factor = beside / pivots[k - 1];
-            pivots[k] -= factor * beside;
-            force[k] -= factor * force[k - 1];
-        }
-        (force[0], force[n]) = (0.0, 0.0);
-        for k in (1..n).rev() {
-            force[k] = (force[k] - beside * force[k + 1]) / pivots[k];
-        }
-        force
+        let mass = |element: &Element| {
+            let mass = element.mass();
+            [0, 1].map(|i| [0, 1].map(|j| Matrix1::new(mass[(i, j)])))
+        };
+        let held = OMatrix::<f64, Const<1>, Dyn>::zeros(0);
+        let mass = Arrow::factor(DMatrix::zeros(0, 0), [(&elements[..], held)], mass);
+        let right = ArrowVector { hub: DVector::zeros(0), chains: vec![force[1..n].to_vec()] };
+        let inner = mass.solve(&right).chains.into_iter().flatten().map(|node| node.x);
+        std::iter::once(0.0).chain(inner).chain([0.0]).collect()
     }
 
     /// Integrates to `end` by Runge and Kutta's method of order 4.
