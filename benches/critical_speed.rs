@@ -13,7 +13,7 @@ use common::referee::Referee;
 use divan::Bencher;
 use tautline::robot::{Linearisation, RobotSpec, paper_spec};
 use tautline::stability::{CriticalSearch, Method, SCAN_STEP};
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 const LIMIT: f64 = 40.0;
 /// The speed of the spectra, in m/s.
@@ -27,13 +27,13 @@ fn paper(linearisation: Linearisation, elements: usize) -> Robot {
     Robot::new(RobotSpec { elements, linearisation, ..paper_spec() }).expect("a physical robot")
 }
 
-fn local(robot: &Robot, x: f64) -> Local {
+fn local(robot: &Robot, x: f64) -> LocalProblem {
     let motion = Motion::new([x, 0.0], [1.0, 0.0], SPEED).expect("a motion");
-    Local::new(robot, &motion).expect("a feasible pose")
+    LocalProblem::new(robot, &motion).expect("a feasible pose")
 }
 
 /// The paper's robot at the origin.
-fn at_origin(linearisation: Linearisation, elements: usize) -> (Robot, Local) {
+fn at_origin(linearisation: Linearisation, elements: usize) -> (Robot, LocalProblem) {
     let robot = paper(linearisation, elements);
     let local = local(&robot, 0.0);
     (robot, local)

@@ -13,7 +13,7 @@ use std::time::Instant;
 use common::referee::Referee;
 use tautline::robot::{Linearisation, RobotSpec, paper_spec};
 use tautline::stability::{Outcome, Polarisation, SCAN_STEP, mode};
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 const LIMIT: f64 = 40.0;
 /// The speed of the spectra, in m/s.
@@ -25,9 +25,9 @@ fn paper(linearisation: Linearisation, elements: usize) -> Robot {
     Robot::new(RobotSpec { elements, linearisation, ..paper_spec() }).expect("a physical robot")
 }
 
-fn local(robot: &Robot, x: f64) -> Local {
+fn local(robot: &Robot, x: f64) -> LocalProblem {
     let motion = Motion::new([x, 0.0], [1.0, 0.0], SPEED).expect("a motion");
-    Local::new(robot, &motion).expect("a feasible pose")
+    LocalProblem::new(robot, &motion).expect("a feasible pose")
 }
 
 /// The time of one call, in s.

@@ -19,7 +19,7 @@ use std::io::{self, Write};
 
 use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2};
 use tautline::stability::Outcome;
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 /// The critical speed is searched from rest up to this speed, in m/s.
 const LIMIT: f64 = 40.0;
@@ -57,7 +57,7 @@ pub fn write(out: &mut impl Write) -> Result<(), Box<dyn Error>> {
     let motion = Motion::new([0.2, 0.5], [1.0, 0.0], 2.0)?;
 
     // All that does not depend on the speed. A pose without a taut equilibrium is an error that names the cable.
-    let local = Local::new(&robot, &motion).map_err(|failure| failure.reason)?;
+    let local = LocalProblem::new(&robot, &motion).map_err(|failure| failure.reason)?;
     for (number, (shape, rate)) in local.statics.cables.iter().zip(&local.rates).enumerate() {
         writeln!(
             out,

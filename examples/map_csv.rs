@@ -27,7 +27,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use tautline::scenario::{Scenario, file, presets};
-use tautline::study::{Answer, Asked, Directions, Grid, Study};
+use tautline::study::{Answer, Directions, Grid, Mapped, Study};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let scenario = match std::env::args().nth(1) {
@@ -53,7 +53,7 @@ pub fn write(scenario: &Scenario, out: &mut impl Write) -> Result<(), Box<dyn Er
     let (robot, motion) = scenario.to_robot()?;
     let grid = Grid::of(&robot, 5, 3);
     let directions = Directions::One(motion.direction());
-    let study = Study::Map { grid, directions, asked: Asked::Critical { limit: 40.0 } };
+    let study = Study::Map { grid, directions, mapped: Mapped::Critical { limit: 40.0 } };
 
     writeln!(out, "x_m,y_m,critical_speed_m_per_s,frequency_hz,status")?;
     // Places do not depend on each other: threads may share them out. `study.order()` begins with a coarse picture.

@@ -13,12 +13,12 @@ use tautline::cli::{self, Start, Streams};
 use tautline::compute::protocol::{
     Batch, Incoming, Job, ModeChoice, Outgoing, Reply, Request, StudyJob, Task, Topic, Update, Which,
 };
-use tautline::compute::{Bench, Engine};
+use tautline::compute::{Engine, PoolWorker};
 use tautline::robot::{Faults, Linearisation, Strain};
 use tautline::scenario::link::{self, LinkError};
 use tautline::scenario::report::StatusReport;
 use tautline::scenario::{Report, Scenario, presets};
-use tautline::study::{Asked, Directions, Grid, Line, Study};
+use tautline::study::{Directions, Grid, Line, Mapped, Study};
 
 /// A target: tries bytes and gives whether they were accepted.
 pub type Target = fn(&[u8]) -> bool;
@@ -144,14 +144,14 @@ pub fn worker(bytes: &[u8]) -> bool {
         }
     }
 
-    let mut bench = Bench::default();
+    let mut pool_worker = PoolWorker::default();
     let topic = Topic::of(&study);
     let study = Task::Study { generation: 1, job: StudyJob { revision: 1, scenario, study } };
     let batch = Task::Batch(Batch { topic, generation: 1, places: places.clone() });
     for task in [study, batch] {
         let Incoming::Task(task) = sent(&Incoming::Task(task)) else { continue };
-        bench.submit(task);
-        while let Some(answered) = in_time_once(|| bench.work()) {
+        pool_worker.submit(task);
+        while let Some(answered) = in_time_once(|| pool_worker.work()) {
             let Some(batch) = answered else { continue };
             assert!(batch.answers.iter().zip(&places).all(|((answered, _), place)| answered == place), "{batch:?}");
             finite(&batch);
@@ -224,12 +224,12 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
         scenario.elements_per_cable = 3;
         let (robot, motion) = scenario.to_robot().unwrap();
         let (position, direction) = (motion.position(), motion.direction());
-        let (grid, asked) = (Grid::of(&robot, 2, 2), Asked::Critical { limit });
-        let growth = Asked::Growth { speed: motion.speed() };
+        let (grid, mapped) = (Grid::of(&robot, 2, 2), Mapped::Critical { limit });
+        let growth = Mapped::Growth { speed: motion.speed() };
         let studies = [
             Study::Line { line: Line::through(&robot, &motion, 3), limit },
-            Study::Map { grid, directions: Directions::Worst(Directions::WORST_OF), asked },
-            Study::Map { grid, directions: Directions::One(direction), asked: growth },
+            Study::Map { grid, directions: Directions::Worst(Directions::WORST_OF), mapped },
+            Study::Map { grid, directions: Directions::One(direction), mapped: growth },
             Study::Polar { position, count: 3, limit },
             Study::Speeds { position, direction, to: 9.0, count: 3 },
             Study::Elements { position, direction, counts: vec![2, 3], limit },
@@ -328,8 +328,8 @@ fn is_small(scenario: &Scenario) -> bool {
 fn bound(study: &mut Study) {
     match study {
         Study::Line { limit, .. } | Study::Polar { limit, .. } => bound_speed(limit),
-        Study::Map { asked, directions, .. } => {
-            if let Asked::Critical { limit } = asked {
+        Study::Map { mapped, directions, .. } => {
+            if let Mapped::Critical { limit } = mapped {
                 bound_speed(limit);
             }
             // More than are allowed stay so.

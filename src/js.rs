@@ -10,7 +10,7 @@ use crate::robot::{Motion, Robot};
 use crate::scenario::options::{MapOptions, max_speed};
 use crate::scenario::report::{CriticalReport, KindReport, StatusReport, WaveLimitReport};
 use crate::scenario::{Report, Scenario};
-use crate::study::{Answer, Asked, Directions, Grid, Study, Verdict};
+use crate::study::{Answer, Directions, Grid, Mapped, Study, Verdict};
 
 type Text = Result<String, JsError>;
 
@@ -57,7 +57,7 @@ impl MapStudy {
         let MapOptions { nx, ny, directions, limit } = MapOptions::from_json(options)?;
         let grid = Grid::of(&robot, nx, ny);
         let directions = directions.unwrap_or(Directions::One(motion.direction()));
-        let study = Study::Map { grid, directions, asked: Asked::Critical { limit } };
+        let study = Study::Map { grid, directions, mapped: Mapped::Critical { limit } };
         Ok(Self { robot, grid, study })
     }
 

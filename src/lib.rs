@@ -9,11 +9,11 @@
 //! compute engine, and the interfaces on top.
 //!
 //! ```
-//! use tautline::{Local, Motion, Robot, robot};
+//! use tautline::{LocalProblem, Motion, Robot, robot};
 //!
 //! let robot: Robot = robot::paper()?;
 //! let motion = Motion::new([0.0, 0.0], [1.0, 0.0], 5.0)?;
-//! let local = Local::new(&robot, &motion).map_err(|failure| failure.reason)?;
+//! let local = LocalProblem::new(&robot, &motion).map_err(|failure| failure.reason)?;
 //! assert!((local.statics.cables[0].length - 10.908_221_684_3).abs() < 1e-9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -35,4 +35,4 @@ pub mod js;
 pub mod scenario;
 
 pub use robot::{Motion, Robot};
-pub use study::Local;
+pub use study::LocalProblem;

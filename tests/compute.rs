@@ -5,7 +5,7 @@
 use std::time::{Duration, Instant};
 
 use nalgebra::Complex;
-use tautline::Local;
+use tautline::LocalProblem;
 use tautline::compute::Engine;
 use tautline::compute::protocol::{Extent, Job, ModeChoice, Reply, Request, Update, Which};
 use tautline::robot::{Linearisation, TensionLaw};
@@ -13,7 +13,7 @@ use tautline::scenario::report::CriticalReport;
 use tautline::scenario::{Report, Scenario, presets};
 use tautline::stability::{Polarisation, mode};
 use tautline::study::Knob;
-use tautline::study::validation::{CHECKS, Outcome};
+use tautline::study::validation::{CHECKS, Comparison};
 
 /// The parameters of the paper's robot.
 const KNOBS: [Knob; 9] = [
@@ -279,7 +279,7 @@ fn checks_of_known_numbers_are_done_when_all_else_is_done() {
     assert!(replies.iter().any(|reply| matches!(reply.update, Update::Sensitivities(_))));
     assert_eq!((answer.index, answer.count), (0, CHECKS.len()));
     assert_eq!((answer.name.as_str(), answer.unit.as_str()), (CHECKS[0].name, CHECKS[0].unit));
-    assert!(answer.outcome.as_ref().is_ok_and(Outcome::passes), "{answer:?}");
+    assert!(answer.comparison.as_ref().is_ok_and(Comparison::passes), "{answer:?}");
     engine.submit(Request::Check(CHECKS.len()));
     assert_eq!(finish(&mut engine), [], "there is no such check");
 }
@@ -298,7 +298,7 @@ fn largest(linearisation: Linearisation) -> Scenario {
 /// The time of ten mode shapes. Slices are measured in it, since machines differ and are busy.
 fn unit(scenario: &Scenario) -> Duration {
     let (robot, motion) = scenario.to_robot().expect("physical");
-    let local = Local::new(&robot, &motion).map_err(|failure| failure.reason).expect("a pose");
+    let local = LocalProblem::new(&robot, &motion).map_err(|failure| failure.reason).expect("a pose");
     let begun = Instant::now();
     for k in 0..10 {
         std::hint::black_box(mode(&local.vibration, 5.0, Complex::new(-0.1, f64::from(k)), Polarisation::X));

@@ -22,7 +22,7 @@ use tautline::mechanics::{self, Infeasible, StaticsError};
 use tautline::robot::{Damping, RobotSpec, TensionLaw, Vec2, paper};
 use tautline::scenario::presets;
 use tautline::stability::{CriticalSearch, Outcome};
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 /// The critical speed is searched up to this speed, in m/s.
 const LIMIT: f64 = 15.0;
@@ -119,7 +119,7 @@ fn check_reason(reason: &StaticsError) {
 }
 
 /// Checks that statics are right or refused with a right reason. If they are right, gives the vibration.
-fn judge_statics(robot: &Robot, motion: &Motion, tally: &mut Tally) -> Option<Local> {
+fn judge_statics(robot: &Robot, motion: &Motion, tally: &mut Tally) -> Option<LocalProblem> {
     let found = mechanics::solve(robot, motion.position());
     match found {
         Err(failure) => {
@@ -133,7 +133,7 @@ fn judge_statics(robot: &Robot, motion: &Motion, tally: &mut Tally) -> Option<Lo
         Ok(statics) => {
             tally.count("statics");
             check_statics(robot, &statics);
-            match Local::along(robot, statics, motion.direction()) {
+            match LocalProblem::along(robot, statics, motion.direction()) {
                 Ok(local) => {
                     assert!(local.rates.iter().all(|rate| rate.first.is_finite() && rate.second.is_finite()));
                     Some(local)

@@ -170,16 +170,16 @@ fn rooms_use_only_those_before_them() {
 const NAMED_BY_THE_APP: [&str; 23] = [
     "robot",
     "stability::Critical",
-    "stability::Kind",
+    "stability::Instability",
     "stability::TIE_OF_SHARES",
     "stability::first_largest",
     "stability::first_lowest",
     "study::Answer",
-    "study::Asked",
+    "study::Mapped",
     "study::Grid",
     "study::Knob",
     "study::Line",
-    "study::NoAnswer",
+    "study::NoEigenvalues",
     "study::Sensitivity",
     "study::Status",
     "study::Study",
@@ -188,7 +188,7 @@ const NAMED_BY_THE_APP: [&str; 23] = [
     "study::compass",
     "study::convergence",
     "study::evenly",
-    "study::validation::Outcome",
+    "study::validation::Comparison",
     "study::workspace",
     "study::Directions",
 ];
@@ -263,7 +263,7 @@ fn the_reader_sees_what_it_must_and_skips_what_it_should() {
     assert_eq!(names, ["robot", "study", "cli"]);
     let room = source().join("study");
     assert!(out_of_the_room(&room.join("mod.rs"), "use super::app;"));
-    assert!(!out_of_the_room(&room.join("local.rs"), "use super::Local;"));
+    assert!(!out_of_the_room(&room.join("local.rs"), "use super::LocalProblem;"));
     assert!(out_of_the_room(&room.join("local.rs"), "use super::super::app;"));
 }
 

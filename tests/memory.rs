@@ -3,7 +3,7 @@
 use nalgebra::Complex;
 use tautline::robot::{Cable, Linearisation, RobotSpec, TensionLaw, Vec2, paper_spec};
 use tautline::stability::{Characteristic, Outcome, unstable_eigenvalues};
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 #[global_allocator]
 static ALLOCATOR: dhat::Alloc = dhat::Alloc;
@@ -24,7 +24,7 @@ fn the_search_takes_no_memory_per_value_and_little_in_all() {
     let _counters = dhat::Profiler::builder().testing().build();
     let motion = Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).expect("a motion");
 
-    let local = Local::new(&robot(10, 4), &motion).expect("a feasible pose");
+    let local = LocalProblem::new(&robot(10, 4), &motion).expect("a feasible pose");
     let function = Characteristic::new(&local.vibration);
     // The test harness has threads that allocate as well. Memory that a value needs would be allocated every time.
     let least = (0..20).map(|_| {
@@ -36,7 +36,7 @@ fn the_search_takes_no_memory_per_value_and_little_in_all() {
     });
     assert_eq!(least.min(), Some(0), "blocks for 1000 values");
 
-    let local = Local::new(&robot(200, 8), &motion).expect("a feasible pose");
+    let local = LocalProblem::new(&robot(200, 8), &motion).expect("a feasible pose");
     let outcome = local.critical_speed(40.0).expect("a critical speed");
     let Outcome::Found(critical) = outcome else { panic!("{outcome:?}") };
     assert_eq!(unstable_eigenvalues(&local.vibration, critical.speed * 0.999), Some(0), "{critical:?}");

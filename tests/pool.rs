@@ -12,7 +12,7 @@ use tautline::compute::Pool;
 use tautline::compute::protocol::{Revision, StudyJob, StudyNews, Topic};
 use tautline::robot::Vec2;
 use tautline::scenario::{Scenario, presets};
-use tautline::study::{Answer, Asked, Directions, Grid, Line, Study};
+use tautline::study::{Answer, Directions, Grid, Line, Mapped, Study};
 
 const LIMIT: f64 = 40.0;
 const TOO_LONG: Duration = Duration::from_mins(2);
@@ -31,8 +31,8 @@ fn job(revision: Revision, study: Study) -> StudyJob {
 
 fn map(nx: usize, ny: usize) -> Study {
     let (robot, motion) = paper().to_robot().expect("physical");
-    let asked = Asked::Critical { limit: LIMIT };
-    Study::Map { grid: Grid::of(&robot, nx, ny), directions: Directions::One(motion.direction()), asked }
+    let mapped = Mapped::Critical { limit: LIMIT };
+    Study::Map { grid: Grid::of(&robot, nx, ny), directions: Directions::One(motion.direction()), mapped }
 }
 
 fn line(count: usize) -> Study {
@@ -56,9 +56,9 @@ fn studies() -> Vec<Study> {
         Study::Elements { position, direction, counts: vec![8, 2, 4], limit: LIMIT },
         Study::Modes { spectra: spectra.collect() },
     ];
-    for asked in [Asked::Critical { limit: LIMIT }, Asked::Growth { speed: motion.speed() }] {
+    for mapped in [Mapped::Critical { limit: LIMIT }, Mapped::Growth { speed: motion.speed() }] {
         for directions in [Directions::One(direction), Directions::Worst(Directions::WORST_OF)] {
-            studies.push(Study::Map { grid, directions, asked });
+            studies.push(Study::Map { grid, directions, mapped });
         }
     }
     studies
@@ -175,8 +175,8 @@ fn a_study_takes_the_place_of_its_topics_older_one() {
     watched.pool.want(job(1, map(33, 17)));
     watched.until(|seen| !seen.places.is_empty());
     // Both have the same places, so places alone would not tell them apart.
-    let Study::Map { grid, asked, .. } = map(33, 17) else { panic!("a map") };
-    let other = Study::Map { grid, directions: Directions::One(Vec2::y()), asked };
+    let Study::Map { grid, mapped, .. } = map(33, 17) else { panic!("a map") };
+    let other = Study::Map { grid, directions: Directions::One(Vec2::y()), mapped };
     watched.pool.want(job(2, other));
     watched.pool.want(job(3, line(3)));
     let old = watched.seen.answers[&(Topic::Map, 1)].len();
@@ -256,19 +256,19 @@ fn numbers_that_are_not_allowed_are_refused() {
     let (count, limit) = (4, LIMIT);
     let grid = Grid { low: Vec2::zeros(), high: Vec2::new(1.0, 1.0), nx: 3, ny: 3 };
     let through = Line { from: Vec2::zeros(), to: Vec2::new(1.0, 0.0), direction, count };
-    let (ahead, asked) = (Directions::One(direction), Asked::Critical { limit });
-    let map = |grid, directions, asked| Study::Map { grid, directions, asked };
+    let (ahead, mapped) = (Directions::One(direction), Mapped::Critical { limit });
+    let map = |grid, directions, mapped| Study::Map { grid, directions, mapped };
     let refused = [
         Study::Line { line: Line { to: nowhere, ..through }, limit },
         Study::Line { line: Line { direction: Vec2::zeros(), ..through }, limit },
         Study::Line { line: Line { count: usize::MAX, ..through }, limit },
         Study::Line { line: through, limit: -1.0 },
-        map(Grid { low: nowhere, ..grid }, ahead, asked),
-        map(Grid { nx: usize::MAX, ny: usize::MAX, ..grid }, ahead, asked),
-        map(grid, Directions::One(nowhere), asked),
-        map(grid, Directions::Worst(usize::MAX), asked),
-        map(grid, ahead, Asked::Critical { limit: f64::INFINITY }),
-        map(grid, ahead, Asked::Growth { speed: f64::NAN }),
+        map(Grid { low: nowhere, ..grid }, ahead, mapped),
+        map(Grid { nx: usize::MAX, ny: usize::MAX, ..grid }, ahead, mapped),
+        map(grid, Directions::One(nowhere), mapped),
+        map(grid, Directions::Worst(usize::MAX), mapped),
+        map(grid, ahead, Mapped::Critical { limit: f64::INFINITY }),
+        map(grid, ahead, Mapped::Growth { speed: f64::NAN }),
         Study::Polar { position: nowhere, count, limit },
         Study::Speeds { position, direction, to: f64::NAN, count },
         Study::Speeds { position, direction: nowhere, to: 9.0, count },

@@ -68,7 +68,7 @@ fn there_is_room_around_the_start() {
         let places = steps().flat_map(|i| steps().map(move |j| (i, j)));
         let infeasible = places.filter(|(i, j)| {
             let (robot, motion) = at(&scenario, [x + i * span(0), y + j * span(1)]).to_robot().expect("physical");
-            tautline::Local::new(&robot, &motion).is_err()
+            tautline::LocalProblem::new(&robot, &motion).is_err()
         });
         assert_eq!(infeasible.count() > 0, preset.name == "slack", "{}", preset.name);
     }

@@ -13,8 +13,8 @@ use common::{
 use nalgebra::Complex;
 use serde_json::Value;
 use tautline::mechanics::{Statics, StaticsError};
-use tautline::stability::{Critical, CriticalSearch, Kind, Method, Outcome};
-use tautline::study::Local;
+use tautline::stability::{Critical, CriticalSearch, Instability, Method, Outcome};
+use tautline::study::LocalProblem;
 
 /// Lengths and tensions, relative; nodes, of the longest cable.
 const STATICS: f64 = 1e-8;
@@ -62,7 +62,7 @@ fn infeasible_poses_name_the_cable() {
     for file in files {
         let case = read(&file);
         let (robot, motion) = scenario(&case["scenario"]);
-        let failure = Local::new(&robot, &motion).expect_err(name(&file));
+        let failure = LocalProblem::new(&robot, &motion).expect_err(name(&file));
         let StaticsError::Infeasible(reason) = failure.reason else {
             panic!("{}: {}", name(&file), failure.reason);
         };
@@ -76,7 +76,7 @@ fn check_case(file: &Path, methods: &[Method]) {
     let case = read(file);
     let (name, expected) = (name(file), &case["expected"]);
     let (robot, motion) = scenario(&case["scenario"]);
-    let local = Local::new(&robot, &motion).unwrap_or_else(|failure| panic!("{name}: {failure}"));
+    let local = LocalProblem::new(&robot, &motion).unwrap_or_else(|failure| panic!("{name}: {failure}"));
 
     check_cables(name, &local, list(&expected["cables"]));
 
@@ -106,8 +106,8 @@ fn check_case(file: &Path, methods: &[Method]) {
     }
 }
 
-fn check_cables(name: &str, local: &Local, expected: &[Value]) {
-    let Local { statics: Statics { cables, .. }, rates, .. } = local;
+fn check_cables(name: &str, local: &LocalProblem, expected: &[Value]) {
+    let LocalProblem { statics: Statics { cables, .. }, rates, .. } = local;
     assert_eq!(cables.len(), expected.len(), "{name}: number of cables");
     let longest = expected.iter().map(|cable| number(&cable["unstretched_length"])).fold(0.0, f64::max);
     for (i, ((shape, rate), expected)) in cables.iter().zip(rates).zip(expected).enumerate() {
@@ -139,8 +139,8 @@ fn check_critical(name: &str, critical: &Critical, expected: &Value) {
     // The case files give a frequency of 0 for divergence, and no kind.
     let kind = expected["kind"].as_str().unwrap_or(if frequency == 0.0 { "divergence" } else { "flutter" });
     let actual = match critical.kind {
-        Kind::Flutter => "flutter",
-        Kind::Divergence => "divergence",
+        Instability::Flutter => "flutter",
+        Instability::Divergence => "divergence",
     };
     assert_eq!(actual, kind, "{name}: kind");
     // At a critical speed of 0 every mode crosses: frequency and cable are a convention there.

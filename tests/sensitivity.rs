@@ -9,9 +9,9 @@ use common::random::{config, moving_robot};
 use proptest::prelude::*;
 use proptest::test_runner::TestRunner;
 use tautline::robot::{Damping, Linearisation, RobotSpec, TensionLaw, paper_spec};
-use tautline::stability::{Critical, Kind, NoSensitivity, Outcome};
+use tautline::stability::{Critical, Instability, NoSensitivity, Outcome};
 use tautline::study::{Knob, Sensitivity, sensitivities};
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 /// Only critical speeds above this one, in m/s, are compared.
 const SLOWEST: f64 = 0.5;
@@ -24,7 +24,7 @@ const STEP: f64 = 1e-3;
 const LIMIT: f64 = 40.0;
 
 fn critical(robot: &Robot, motion: &Motion) -> Option<Critical> {
-    match Local::new(robot, motion).ok()?.critical_speed(LIMIT).ok()? {
+    match LocalProblem::new(robot, motion).ok()?.critical_speed(LIMIT).ok()? {
         Outcome::Found(critical) => Some(critical),
         Outcome::NoneUpTo(_) => None,
     }
@@ -64,10 +64,11 @@ fn differences(robot: &Robot, motion: &Motion, at: &Critical, knob: Knob) -> Opt
         let beside = critical(&turned(robot, knob, step * STEP), motion)?;
         let frequency = beside.eigenvalue.im / at.eigenvalue.im;
         // A frequency that moves by a tenth in so small a step is that of another mode.
-        if beside.kind != at.kind || (at.kind == Kind::Flutter && (frequency - 1.0).abs() > 0.1) {
+        if beside.kind != at.kind || (at.kind == Instability::Flutter && (frequency - 1.0).abs() > 0.1) {
             return None;
         }
-        logarithms[k] = [(beside.speed / at.speed).ln(), if at.kind == Kind::Flutter { frequency.ln() } else { 0.0 }];
+        logarithms[k] =
+            [(beside.speed / at.speed).ln(), if at.kind == Instability::Flutter { frequency.ln() } else { 0.0 }];
     }
     Some([0, 1].map(|i| {
         let values = logarithms.map(|pair| pair[i]);
@@ -89,7 +90,7 @@ fn compare(robot: &Robot, motion: &Motion) -> usize {
     let mut compared = 0;
     for Sensitivity { knob, speed, frequency } in all {
         let what = format!("{knob:?} at {:?} along {:?} of {robot:?}", motion.position(), motion.direction());
-        assert_eq!(frequency.is_some(), at.kind == Kind::Flutter, "{what}");
+        assert_eq!(frequency.is_some(), at.kind == Instability::Flutter, "{what}");
         let Some([by_speed, by_frequency]) = differences(robot, motion, &at, knob) else { continue };
         close(speed, by_speed.0, by_speed.1, format!("speed by {what}"));
         close(frequency.unwrap_or(0.0), by_frequency.0, by_frequency.1, format!("frequency by {what}"));
@@ -158,7 +159,7 @@ fn check_units(robot: &Robot, motion: &Motion) -> bool {
         let allowed = SEARCHED + 1e-9 * size;
         let what = format!("{} of {robot:?} {motion:?}", ["speed", "frequency"][i]);
         close(mass, 0.0, allowed, format!("mass, {what}"));
-        let rate = if i == 0 || at.kind == Kind::Flutter { 1.0 } else { 0.0 };
+        let rate = if i == 0 || at.kind == Instability::Flutter { 1.0 } else { 0.0 };
         close(time, rate, allowed, format!("time, {what}"));
         assert_eq!(e, a, "{what}");
     }

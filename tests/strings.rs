@@ -11,7 +11,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix2};
 use num_dual::{DualNum, first_derivative};
 use tautline::mechanics::{Chain, Element, Hub, Material, Stiffness, Vibration};
 use tautline::robot::{Damping, Linearisation, Strain, Vec2};
-use tautline::stability::{CriticalSearch, Eigenproblem, Kind, Method, Outcome};
+use tautline::stability::{CriticalSearch, Eigenproblem, Instability, Method, Outcome};
 
 const MATERIAL: Material = Material::new(6250.0, Strain::Green).expect("positive");
 const MU: f64 = 0.4;
@@ -78,7 +78,7 @@ fn a_damped_travelling_string_is_stable_up_to_the_wave_speed() {
                 let outcome = CriticalSearch::by(method, 2.0 * c).run(&vibration).expect("eigenvalues");
                 let Outcome::Found(critical) = outcome else { panic!("{what}: {outcome:?}") };
                 close(critical.speed, c, 1e-6, &what);
-                assert_eq!(critical.kind, Kind::Divergence, "{what}");
+                assert_eq!(critical.kind, Instability::Divergence, "{what}");
             }
         }
     }

@@ -15,9 +15,9 @@ use common::judge::{Drawn, Verdict, judge_critical_speed, judge_eigenvalues};
 use common::referee::divergences;
 use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2, paper_spec};
 use tautline::stability::{
-    CriticalSearch, Doubt, Kind, Method, NotConverged, Outcome, Solver, structured, unstable_eigenvalues,
+    CriticalSearch, Doubt, Instability, Method, NotConverged, Outcome, Solver, structured, unstable_eigenvalues,
 };
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 /// The usual number of robots.
 const ROBOTS: u64 = 30;
@@ -67,7 +67,7 @@ impl Numbers {
 
 /// A random robot that can be at rest in its pose; 3 to 6 cables, the first two at equilibrium and above the platform.
 /// One of 16 has no damping.
-fn random(seed: u64) -> (Robot, Local) {
+fn random(seed: u64) -> (Robot, LocalProblem) {
     let mut numbers = Numbers(seed.wrapping_mul(0x5851_f42d_4c95_7f2d));
     loop {
         let pick = &mut numbers;
@@ -118,7 +118,7 @@ fn random(seed: u64) -> (Robot, Local) {
         let oblique = Vec2::new(pick.within(-1.0, 1.0), pick.within(-1.0, 1.0));
         let direction = pick.one_of(&[Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), Vec2::new(0.0, -1.0), oblique]);
         let (Ok(robot), Ok(motion)) = (Robot::new(spec), Motion::new(position, direction, 1.0)) else { continue };
-        if let Ok(local) = Local::new(&robot, &motion) {
+        if let Ok(local) = LocalProblem::new(&robot, &motion) {
             return (robot, local);
         }
     }
@@ -132,7 +132,7 @@ fn seeds() -> Vec<u64> {
 }
 
 /// Calls `judge` with the robots of these seeds, on all cores. Gives its answers by seed.
-fn for_each_robot<T: Send>(seeds: &[u64], judge: impl Fn(Robot, Local) -> T + Sync) -> Vec<(u64, T)> {
+fn for_each_robot<T: Send>(seeds: &[u64], judge: impl Fn(Robot, LocalProblem) -> T + Sync) -> Vec<(u64, T)> {
     let (next, verdicts) = (AtomicUsize::new(0), Mutex::new(Vec::new()));
     let work = || {
         while let Some(&seed) = seeds.get(next.fetch_add(1, Ordering::Relaxed)) {
@@ -235,7 +235,7 @@ fn a_divergence_does_not_need_a_scan() {
         let spec = RobotSpec { elements: 100, linearisation: Linearisation::Tangent, damping, ..paper_spec() };
         let robot = Robot::new(spec).expect("physical");
         let motion = Motion::new([0.0, 0.0], [1.0, 0.0], 0.0).expect("a motion");
-        let local = Local::new(&robot, &motion).expect("statics");
+        let local = LocalProblem::new(&robot, &motion).expect("statics");
         let mut search = CriticalSearch::new(40.0);
         let outcome = loop {
             match search.advance(&local.vibration) {
@@ -244,7 +244,11 @@ fn a_divergence_does_not_need_a_scan() {
             }
         };
         let Ok(Some(Outcome::Found(critical))) = outcome else { panic!("{damping:?}: {outcome:?}") };
-        assert_eq!((critical.kind, search.doubt(), search.samples()), (Kind::Divergence, None, &[][..]), "{damping:?}");
+        assert_eq!(
+            (critical.kind, search.doubt(), search.samples()),
+            (Instability::Divergence, None, &[][..]),
+            "{damping:?}"
+        );
         assert!((critical.speed - 11.939_098_568).abs() < 1e-9, "{damping:?}: {critical:?}");
         // Cables 3 and 4 mirror each other and bow out alike; 4 is reeled in.
         assert_eq!(critical.cable, 3, "{damping:?}");
@@ -384,7 +388,7 @@ fn a_search_up_to_the_critical_speed_has_an_answer() {
     let robot = Robot::new(paper_spec()).expect("physical");
     for direction in [[1.0, 0.0], [0.0, -1.0], [0.6, 0.8]] {
         let motion = Motion::new([0.0, 0.0], direction, 0.0).expect("a motion");
-        let local = Local::new(&robot, &motion).expect("statics");
+        let local = LocalProblem::new(&robot, &motion).expect("statics");
         let Ok(Outcome::Found(critical)) = structured(&local.vibration, LIMIT) else { panic!("no critical speed") };
         for method in [Method::Structured, Method::Dense] {
             for limit in [critical.speed - 1e-12, critical.speed, critical.speed + 1e-12] {

@@ -13,13 +13,13 @@ use proptest::prelude::*;
 use tautline::mechanics::CableShape;
 use tautline::robot::Damping;
 use tautline::stability::{CriticalSearch, Method, Mode, Outcome, Polarisation, Sample, Spectrum, mode};
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 type C64 = Complex<f64>;
 
 /// The pose's local problem, where there is one.
-fn local(robot: &Robot, motion: &Motion) -> Option<Local> {
-    statics(robot, motion.position()).map(|_| Local::new(robot, motion).expect("what depends on statics"))
+fn local(robot: &Robot, motion: &Motion) -> Option<LocalProblem> {
+    statics(robot, motion.position()).map(|_| LocalProblem::new(robot, motion).expect("what depends on statics"))
 }
 
 /// A mode's displacements in the order of [`Dense`].
@@ -44,7 +44,7 @@ fn damped(squared_frequency: f64, damping: Damping) -> [C64; 2] {
 
 /// The shares of the kinetic energy are those of the platform and of each cable, whose elements' speeds are linear: by
 /// Simpson's rule, which is exact for their squares.
-fn check_shares(robot: &Robot, local: &Local, mode: &Mode) {
+fn check_shares(robot: &Robot, local: &LocalProblem, mode: &Mode) {
     let platform = robot.platform_mass * mode.displacement[0][0].norm_squared();
     let cable = |(nodes, shape): (&Vec<Vector2<C64>>, &CableShape)| {
         let mass = robot.mass_per_length * shape.length / robot.elements as f64;
@@ -63,7 +63,7 @@ fn check_shares(robot: &Robot, local: &Local, mode: &Mode) {
 }
 
 /// The spectrum is complete, and every eigenvalue has a mode.
-fn check_spectrum(robot: &Robot, motion: &Motion, local: &Local, dense: &Dense, spectrum: &Spectrum) {
+fn check_spectrum(robot: &Robot, motion: &Motion, local: &LocalProblem, dense: &Dense, spectrum: &Spectrum) {
     let eigenvalues: Vec<C64> = spectrum.eigenvalues().collect();
     let top = largest(&eigenvalues);
 
@@ -126,7 +126,7 @@ proptest! {
 }
 
 /// The search for the critical speed up to `limit` with the growth rates on its way.
-fn search(local: &Local, limit: f64) -> (Outcome, Vec<Sample>) {
+fn search(local: &LocalProblem, limit: f64) -> (Outcome, Vec<Sample>) {
     let mut search = CriticalSearch::by(Method::Dense, limit);
     loop {
         if let Some(outcome) = search.advance(&local.vibration).expect("eigenvalues") {
@@ -164,7 +164,7 @@ proptest! {
         close(critical.eigenvalue.re, 0.0, slope * 1e-9 + rounding, "growth rate at the critical speed");
 
         let (mirror, mirror_motion) = mirrored(&robot, &motion);
-        let reflection = Local::new(&mirror, &mirror_motion).expect("statics in the mirror");
+        let reflection = LocalProblem::new(&mirror, &mirror_motion).expect("statics in the mirror");
         let Outcome::Found(other) = search(&reflection, limit).0 else {
             panic!("stable in the mirror, {critical:?} before it");
         };
@@ -199,7 +199,7 @@ proptest! {
             prop_assert!(rate < 0.0, "{rate:e} at {} before {outcome:?}", part * end);
         }
         let (mirror, mirror_motion) = mirrored(&robot, &motion);
-        let reflection = Local::new(&mirror, &mirror_motion).expect("statics in the mirror");
+        let reflection = LocalProblem::new(&mirror, &mirror_motion).expect("statics in the mirror");
         match (outcome, reflection.critical_speed(limit).expect("eigenvalues")) {
             (Outcome::Found(critical), Outcome::Found(other)) => {
                 close(other.speed, critical.speed, 1e-6, "critical speed in the mirror");

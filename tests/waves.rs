@@ -9,14 +9,14 @@ use std::path::Path;
 
 use serde_json::Value;
 use tautline::robot::{RobotSpec, paper_spec};
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 fn reference(name: &str) -> Value {
     read(&Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/reference/{name}.json")))
 }
 
 fn wave_limit(robot: &Robot, motion: &Motion) -> (f64, usize, bool) {
-    let local = Local::new(robot, motion).map_err(|failure| failure.reason).expect("a pose");
+    let local = LocalProblem::new(robot, motion).map_err(|failure| failure.reason).expect("a pose");
     let limit = local.wave_limit.expect("a limit");
     (limit.speed, limit.cable, limit.reeled_in)
 }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use web_time::Instant;
 
-use crate::compute::protocol::{CriticalAnswer, Extent, Failed, ModeShape, PoseAnswer, Reply, Revision, Update};
+use crate::compute::protocol::{AnalysedPose, Extent, FailedPose, ModeShape, Reply, Revision, SearchEnd, Update};
 use crate::scenario::Report;
 use crate::study::Sensitivity;
 
@@ -16,9 +16,9 @@ pub type Sensitivities = Result<Vec<Sensitivity>, String>;
 pub struct Answers {
     /// The document's revision: answers to it are current.
     revision: Revision,
-    pose: Option<(Revision, PoseAnswer)>,
-    failed: Option<(Revision, Failed)>,
-    critical: Option<(Revision, CriticalAnswer)>,
+    pose: Option<(Revision, AnalysedPose)>,
+    failed: Option<(Revision, FailedPose)>,
+    critical: Option<(Revision, SearchEnd)>,
     curve: Option<(Revision, Vec<[f64; 2]>)>,
     sensitivities: Option<(Revision, Sensitivities)>,
     shape: Option<(Revision, ModeShape)>,
@@ -34,16 +34,16 @@ pub struct Answers {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CriticalState<'a> {
     /// It belongs to the document as it is.
-    Current(&'a CriticalAnswer),
+    Current(&'a SearchEnd),
     /// It is being computed; the last one, if any, belongs to an earlier state. The search has come to this speed.
     Recomputing {
         /// The last answer.
-        last: Option<&'a CriticalAnswer>,
+        last: Option<&'a SearchEnd>,
         /// In m/s, where the search has begun.
         searched_up_to: Option<f64>,
     },
     /// The pose has no answer.
-    Failed(&'a Failed),
+    Failed(&'a FailedPose),
     /// The engine does not work.
     Broken(&'a str),
 }
@@ -78,7 +78,7 @@ impl Answers {
         }
     }
 
-    fn take_critical(&mut self, revision: Revision, answer: CriticalAnswer) {
+    fn take_critical(&mut self, revision: Revision, answer: SearchEnd) {
         self.critical = Some((revision, answer));
         self.complete(revision);
         while let Some((asked, at)) = self.asked.pop_front_if(|(asked, _)| *asked <= revision) {
@@ -118,7 +118,7 @@ impl Answers {
     }
 
     /// The newest pose, unless a newer one failed.
-    pub fn pose(&self) -> Option<&PoseAnswer> {
+    pub fn pose(&self) -> Option<&AnalysedPose> {
         self.failed.is_none().then_some(self.pose.as_ref()).flatten().map(|(_, pose)| pose)
     }
 
@@ -143,7 +143,7 @@ impl Answers {
     }
 
     /// Why the newest pose has no answer, where it has none.
-    pub fn failed(&self) -> Option<&Failed> {
+    pub fn failed(&self) -> Option<&FailedPose> {
         self.failed.as_ref().map(|(_, failed)| failed)
     }
 
@@ -173,7 +173,7 @@ impl Answers {
     }
 
     /// The last critical speed, current or not.
-    pub fn last_critical(&self) -> Option<&CriticalAnswer> {
+    pub fn last_critical(&self) -> Option<&SearchEnd> {
         match self.critical() {
             CriticalState::Current(answer) => Some(answer),
             CriticalState::Recomputing { last, .. } => last,

@@ -128,17 +128,17 @@ mod tests {
     use super::*;
     use crate::robot::Vec2;
     use crate::scenario::presets;
-    use crate::stability::Kind;
+    use crate::stability::Instability;
     use crate::study::{Answer, Verdict};
     use nalgebra::Complex;
     use std::f64::consts::TAU;
 
-    fn found(speed: f64, kind: Kind) -> Critical {
-        let frequency_hz = if kind == Kind::Flutter { 0.27 } else { 0.0 };
+    fn found(speed: f64, kind: Instability) -> Critical {
+        let frequency_hz = if kind == Instability::Flutter { 0.27 } else { 0.0 };
         Critical { speed, eigenvalue: Complex::new(0.0, frequency_hz * TAU), kind, cable: 3 }
     }
 
-    fn known(kinds: [Kind; 3], speeds: [f64; 3]) -> (Scenario, Known) {
+    fn known(kinds: [Instability; 3], speeds: [f64; 3]) -> (Scenario, Known) {
         let scenario = presets::PRESETS[0].scenario();
         let wish = Wish::meshes(&scenario, vec![10, 20, 40]).expect("physical");
         let place = |(speed, kind)| Answer::Critical {
@@ -152,9 +152,9 @@ mod tests {
 
     #[test]
     fn a_figure_is_as_certain_as_the_meshes_say() {
-        let flutter = [Kind::Flutter; 3];
+        let flutter = [Instability::Flutter; 3];
         let (scenario, study) = known(flutter, [11.299, 11.074, 11.014]);
-        let critical = found(11.299, Kind::Flutter);
+        let critical = found(11.299, Instability::Flutter);
         let certainty = Certainty::of(&scenario, &critical, &study);
         let Certainty::Within { speed, .. } = certainty else { panic!("{certainty:?}") };
         assert!((speed - 0.306).abs() < 0.01, "{speed}");
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn what_does_not_converge_is_told_without_a_limit() {
-        use Kind::{Divergence, Flutter};
+        use Instability::{Divergence, Flutter};
         let (scenario, study) = known([Flutter, Flutter, Divergence], [11.299, 11.074, 10.5]);
         let critical = found(11.299, Flutter);
         let certainty = Certainty::of(&scenario, &critical, &study);

@@ -10,7 +10,7 @@ use crate::app::state::Plot;
 use crate::app::studies::Known;
 use crate::compute::protocol::{Extent, Topic};
 use crate::scenario::report::{CriticalReport, StatusReport, parameter};
-use crate::study::{Answer, NoAnswer, Status, Study, Verdict, evenly};
+use crate::study::{Answer, NoEigenvalues, Status, Study, Verdict, evenly};
 
 /// Something to save.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,7 +79,7 @@ fn cell(value: Option<impl ToString>) -> String {
 }
 
 /// How the search for eigenvalues ended.
-fn status<T>(answer: &Result<T, NoAnswer>) -> String {
+fn status<T>(answer: &Result<T, NoEigenvalues>) -> String {
     let status = answer.as_ref().map_or_else(|reason| reason.status(), |_| Status::Found);
     StatusReport::from(status).to_string()
 }
@@ -219,8 +219,8 @@ mod tests {
     use crate::app::studies::Wish;
     use crate::robot::Vec2;
     use crate::scenario::presets;
-    use crate::stability::{Critical, Kind};
-    use crate::study::{Asked, Directions, Grid};
+    use crate::stability::{Critical, Instability};
+    use crate::study::{Directions, Grid, Mapped};
     use nalgebra::Complex;
 
     fn table(study: Study, answers: Vec<Answer>) -> String {
@@ -238,7 +238,7 @@ mod tests {
     fn tables_say_whether_something_was_found_and_why_not() {
         let (position, direction) = (Vec2::zeros(), Vec2::x());
         let eigenvalue = Complex::new(0.0, 1.25 * TAU);
-        let critical = Critical { speed: 9.5, eigenvalue, kind: Kind::Flutter, cable: 3 };
+        let critical = Critical { speed: 9.5, eigenvalue, kind: Instability::Flutter, cable: 3 };
         let answer = |verdict, wave_limit| Answer::Critical { direction, verdict, wave_limit };
         let counts = vec![4, 6, 8, 10, 12];
         let csv = table(
@@ -263,16 +263,16 @@ mod tests {
             ]
         );
         let grid = Grid { low: Vec2::zeros(), high: Vec2::new(2.0, 1.0), nx: 3, ny: 1 };
-        let asked = Asked::Growth { speed: 5.0 };
-        let growth = Study::Map { grid, directions: Directions::One(direction), asked };
-        let missing = [Err(NoAnswer::Infeasible), Err(NoAnswer::Failed)];
+        let mapped = Mapped::Growth { speed: 5.0 };
+        let growth = Study::Map { grid, directions: Directions::One(direction), mapped };
+        let missing = [Err(NoEigenvalues::Infeasible), Err(NoEigenvalues::Failed)];
         let rates = [Ok(-0.25)].into_iter().chain(missing).map(Answer::Growth).collect();
         let csv = table(growth, rates);
         assert_eq!(lines(&csv)[0], "x,y,growth_rate,status");
         let ends: Vec<&str> = lines(&csv)[1..].iter().filter_map(|line| line.splitn(3, ',').nth(2)).collect();
         assert_eq!(ends, ["-0.25,found", ",infeasible", ",failed"]);
         let spectra =
-            vec![Answer::Spectrum(Ok(vec![Complex::new(-1.0, TAU)])), Answer::Spectrum(Err(NoAnswer::Failed))];
+            vec![Answer::Spectrum(Ok(vec![Complex::new(-1.0, TAU)])), Answer::Spectrum(Err(NoEigenvalues::Failed))];
         let csv = table(Study::Speeds { position, direction, to: 2.0, count: 2 }, spectra);
         assert_eq!(lines(&csv), ["speed,growth_rate,frequency_hz,status", "0,-1,1,found", "2,,,failed"]);
     }

@@ -6,7 +6,7 @@ use crate::app::answers::CriticalState;
 use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::panels::answer;
-use crate::stability::Kind;
+use crate::stability::Instability;
 
 /// The critical speed in a sentence, once it is known; `None` while it is being computed.
 pub fn summary(facts: Facts<'_>) -> Option<String> {
@@ -21,11 +21,11 @@ pub fn summary(facts: Facts<'_>) -> Option<String> {
             None => format!("No critical speed up to {} metres per second.", answer.searched_up_to),
             Some(critical) => {
                 let kind = match critical.kind {
-                    Kind::Flutter => {
+                    Instability::Flutter => {
                         let frequency = digits::certain(critical.frequency_hz(), facts.certainty.frequency_hz());
                         format!("flutter at {frequency} hertz")
                     }
-                    Kind::Divergence => "divergence".into(),
+                    Instability::Divergence => "divergence".into(),
                 };
                 let speed = digits::certain(critical.speed, facts.certainty.speed());
                 let why = answer::at_rest(critical, &facts.document.scenario).map(|why| format!(" {why}"));

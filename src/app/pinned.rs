@@ -6,7 +6,7 @@ use crate::app::state::UiState;
 use crate::app::studies::{self, Known, Order, Studies};
 use crate::compute::Compute;
 use crate::compute::protocol::{
-    CriticalAnswer, Job, ModeChoice, PoseAnswer, Reply, Request, StudyNews, Topic, Update, Which,
+    AnalysedPose, Job, ModeChoice, Reply, Request, SearchEnd, StudyNews, Topic, Update, Which,
 };
 use crate::scenario::Scenario;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
@@ -94,7 +94,7 @@ impl Pinned {
     }
 
     /// Its pose and modes.
-    pub fn pose(&self) -> Option<&PoseAnswer> {
+    pub fn pose(&self) -> Option<&AnalysedPose> {
         self.answers.pose()
     }
 
@@ -116,7 +116,7 @@ impl Pinned {
     }
 
     /// The end of its search for a critical speed.
-    pub fn search(&self) -> Option<&CriticalAnswer> {
+    pub fn search(&self) -> Option<&SearchEnd> {
         self.answers.last_critical()
     }
 

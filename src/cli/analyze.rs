@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::PathBuf;
 
 use crate::cli::progress::Progress;
-use crate::cli::{Answer, Output, max_speed, read_scenario, text};
+use crate::cli::{CommandResult, Output, max_speed, read_scenario, text};
 use crate::scenario::Report;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::stability::Method;
@@ -46,7 +46,7 @@ impl From<MethodArg> for Method {
     }
 }
 
-pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
+pub(super) fn run(args: &Args, input: &mut dyn Read) -> CommandResult {
     let scenario = read_scenario(&args.file, input)?;
     let (robot, motion) = scenario.to_robot().map_err(|faults| vec![faults.to_string()])?;
     let limit = args.max_speed;

@@ -1,6 +1,6 @@
 //! `tautline example`: the built-in scenarios.
 
-use crate::cli::{Answer, Output};
+use crate::cli::{CommandResult, Output};
 use crate::scenario::presets::{self, PRESETS};
 
 /// Print a built-in scenario as a scenario file; without a name, list them.
@@ -10,7 +10,7 @@ pub(super) struct Args {
     name: Option<String>,
 }
 
-pub(super) fn run(args: &Args) -> Answer {
+pub(super) fn run(args: &Args) -> CommandResult {
     let Some(name) = &args.name else {
         let entry = |preset: &presets::Preset| {
             let sentences = preset.description.replace(". ", ".\n    ");

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::PathBuf;
 
-use crate::cli::{Answer, Output, read_scenario};
+use crate::cli::{CommandResult, Output, read_scenario};
 use crate::scenario::link;
 
 /// Print what to append to the page's address to open it with a scenario: #s=…
@@ -13,7 +13,7 @@ pub(super) struct Args {
     file: PathBuf,
 }
 
-pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
+pub(super) fn run(args: &Args, input: &mut dyn Read) -> CommandResult {
     let scenario = read_scenario(&args.file, input)?;
     Ok(Output::Text(format!("{}{}\n", link::MARK, link::encode(&scenario))))
 }

@@ -6,11 +6,11 @@ use std::path::PathBuf;
 
 use crate::cli::rows::{COLUMNS, Form, Options, Row, Rows};
 use crate::cli::text::{CAVEAT, critical_sentence, digits};
-use crate::cli::{Answer, Output, read_scenario};
+use crate::cli::{CommandResult, Output, read_scenario};
 use crate::robot::Vec2;
 use crate::scenario::options::MOST_POINTS;
 use crate::stability::{TIE_OF_SPEEDS, first_largest, first_lowest};
-use crate::study::{Answer as Found, Asked, Directions, Grid, Status, Study, Verdict, evenly};
+use crate::study::{Answer, Directions, Grid, Mapped, Status, Study, Verdict, evenly};
 
 /// Points in a row or column.
 const POINTS: std::ops::RangeInclusive<i64> = 1..=MOST_POINTS as i64;
@@ -55,18 +55,18 @@ fn direction(text: &str) -> Result<Directions, String> {
     vector.map(Directions::One).ok_or_else(|| allowed.into())
 }
 
-pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
+pub(super) fn run(args: &Args, input: &mut dyn Read) -> CommandResult {
     let scenario = read_scenario(&args.file, input)?;
     let (robot, motion) = scenario.to_robot().map_err(|faults| vec![faults.to_string()])?;
     let grid = Grid::of(&robot, args.nx as usize, args.ny as usize);
     let directions = args.direction.unwrap_or(Directions::One(motion.direction()));
     let limit = args.options.max_speed;
-    let study = Study::Map { grid, directions, asked: Asked::Critical { limit } };
+    let study = Study::Map { grid, directions, mapped: Mapped::Critical { limit } };
     let row = move |index| {
         let (verdict, wave_limit) = match study.answer(&robot, index) {
-            Found::Critical { verdict, wave_limit, .. } => (verdict, wave_limit),
+            Answer::Critical { verdict, wave_limit, .. } => (verdict, wave_limit),
             // Not what this study asks for.
-            Found::Growth(_) | Found::Spectrum(_) | Found::Modes(_) => (Verdict::Unknown, None),
+            Answer::Growth(_) | Answer::Spectrum(_) | Answer::Modes(_) => (Verdict::Unknown, None),
         };
         Row { swept: Vec::new(), position: grid.position(index), verdict, wave_limit }
     };

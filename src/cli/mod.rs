@@ -73,7 +73,7 @@ enum Output {
 }
 
 /// A verb's output, or one line per fault.
-type Answer = Result<Output, Vec<String>>;
+type CommandResult = Result<Output, Vec<String>>;
 
 /// Where the program reads and writes: the process's own streams, or a test's.
 pub struct Streams<'a> {

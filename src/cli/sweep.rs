@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::cli::rows::{COLUMNS, Form, Options, Row, Rows, exact};
 use crate::cli::text::digits;
-use crate::cli::{Answer, Output, read_scenario};
+use crate::cli::{CommandResult, Output, read_scenario};
 use crate::robot::{Faults, Vec2};
 use crate::scenario::{Parameter, Scenario};
 use crate::study::{Verdict, evenly, verdict};
@@ -264,7 +264,7 @@ fn file<'a>(file: Option<&'a Path>, set: &'a [String]) -> Result<(&'a Path, Vec<
     }
 }
 
-pub(super) fn run(args: &Args, input: &mut dyn Read) -> Answer {
+pub(super) fn run(args: &Args, input: &mut dyn Read) -> CommandResult {
     let (file, sets) = file(args.file.as_deref(), &args.set)?;
     let scenario = read_scenario(file, input)?;
     let sweep = Sweep::new(&scenario, &sets)?;

@@ -11,11 +11,11 @@ use std::time::Duration;
 use nalgebra::Complex;
 use web_time::Instant;
 
-use super::places::search_limit;
 use super::protocol::{
-    CheckAnswer, CriticalAnswer, DrawnShape, Extent, Failed, Job, ModeChoice, ModeRow, ModeShape, PoseAnswer, Reply,
-    Request, Revision, Update, Which,
+    AnalysedPose, CheckResult, DrawnShape, Extent, FailedPose, Job, ModeChoice, ModeRow, ModeShape, Reply, Request,
+    Revision, SearchEnd, Update, Which,
 };
+use super::robot_study::search_limit;
 use crate::mechanics::CableShape;
 use crate::robot::{Motion, Robot, Vec2};
 use crate::scenario::report::{StatusReport, sentence};
@@ -23,7 +23,7 @@ use crate::scenario::{Report, Scenario};
 use crate::stability::steps::step;
 use crate::stability::{self, CriticalSearch, ModeValue, Outcome, Polarisation, Spectrum, Steps};
 use crate::study::validation::CHECKS;
-use crate::study::{Local, Sensitivity, sensitivities_in_steps};
+use crate::study::{LocalProblem, Sensitivity, sensitivities_in_steps};
 
 /// A slice ends after this time, so that a newer request is seen soon.
 const SLICE: Duration = Duration::from_millis(8);
@@ -70,7 +70,7 @@ pub struct Engine {
 struct Pose {
     revision: Revision,
     robot: Robot,
-    local: Arc<Local>,
+    local: Arc<LocalProblem>,
     motion: Motion,
     /// All modes at today's speed, as long as they are being computed.
     all: Option<Steps<AllModes>>,
@@ -86,14 +86,14 @@ struct Pose {
     choice: ModeChoice,
     limit: f64,
     submitted: Instant,
-    stage: Stage,
+    phase: Phase,
     /// The curve, once its end is known.
     curve: Option<Curve>,
     /// What the search has found, once it has ended; or why it has failed, as a sentence.
     outcome: Option<Result<Outcome, String>>,
 }
 
-enum Stage {
+enum Phase {
     /// All modes, as long as that is prompt.
     Prompt,
     /// The slowest ones first.
@@ -160,18 +160,18 @@ impl Engine {
             self.running = Some(self.waiting.take()?);
             return Some(Vec::new());
         };
-        let finished = match &running.stage {
-            Stage::Searching { since, .. } => overtaken && since.elapsed() > PATIENCE,
-            Stage::Curve { since, .. } => {
+        let finished = match &running.phase {
+            Phase::Searching { since, .. } => overtaken && since.elapsed() > PATIENCE,
+            Phase::Curve { since, .. } => {
                 let recent = self.last_curve.is_some_and(|last| last.elapsed() < CURVE_PAUSE);
                 overtaken && (recent || since.elapsed() > CURVE_PATIENCE)
             }
-            Stage::Prompt | Stage::Slowest(_) | Stage::All | Stage::Sensitivities(_) => overtaken,
-            Stage::Done => true,
+            Phase::Prompt | Phase::Slowest(_) | Phase::All | Phase::Sensitivities(_) => overtaken,
+            Phase::Done => true,
         };
         if finished {
             let mut next = self.waiting.take()?;
-            next.stage = Stage::searching(next.limit);
+            next.phase = Phase::searching(next.limit);
             self.running = Some(next);
             return Some(Vec::new());
         }
@@ -213,7 +213,7 @@ impl Engine {
     }
 }
 
-impl Stage {
+impl Phase {
     fn searching(limit: f64) -> Self {
         Self::Searching { search: CriticalSearch::new(limit), since: Instant::now() }
     }
@@ -221,7 +221,7 @@ impl Stage {
 
 impl Curve {
     /// Its points, each of which takes about the time `effort`.
-    fn steps(self, local: Arc<Local>, effort: Duration) -> Steps<Vec<[f64; 2]>> {
+    fn steps(self, local: Arc<LocalProblem>, effort: Duration) -> Steps<Vec<[f64; 2]>> {
         let Self { mut points, from, to } = self;
         let (first, most) = if points.is_empty() { (0, CURVE_POINTS) } else { (1, CURVE_POINTS_BEYOND) };
         let affordable = CURVE_TIME.as_micros() / effort.as_micros().max(1);
@@ -242,7 +242,7 @@ impl Curve {
 }
 
 /// All modes of a pose at `speed` (m/s), in steps.
-async fn all_modes(local: Arc<Local>, speed: f64, polarisation: Polarisation) -> AllModes {
+async fn all_modes(local: Arc<LocalProblem>, speed: f64, polarisation: Polarisation) -> AllModes {
     let spectrum = local.spectra.clone().spectrum_in_steps(&local.vibration, speed).await.ok()?;
     let values = spectrum.modes().collect();
     let rows = rows(&local, speed, values, polarisation).await;
@@ -250,13 +250,13 @@ async fn all_modes(local: Arc<Local>, speed: f64, polarisation: Polarisation) ->
 }
 
 /// Its slowest ones.
-async fn slowest_modes(local: Arc<Local>, speed: f64, polarisation: Polarisation) -> Vec<ModeRow> {
+async fn slowest_modes(local: Arc<LocalProblem>, speed: f64, polarisation: Polarisation) -> Vec<ModeRow> {
     let values = local.spectra.slowest_in_steps(speed, SLOWEST).await;
     rows(&local, speed, values, polarisation).await
 }
 
 /// Rows of the table of modes.
-async fn rows(local: &Local, speed: f64, values: Vec<ModeValue>, polarisation: Polarisation) -> Vec<ModeRow> {
+async fn rows(local: &LocalProblem, speed: f64, values: Vec<ModeValue>, polarisation: Polarisation) -> Vec<ModeRow> {
     let mut rows = Vec::with_capacity(values.len());
     for value in values {
         let mode = stability::mode(&local.vibration, speed, value.eigenvalue, polarisation);
@@ -274,19 +274,19 @@ async fn rows(local: &Local, speed: f64, values: Vec<ModeValue>, polarisation: P
 }
 
 impl Pose {
-    fn new(job: &Job, submitted: Instant) -> Result<Self, Box<Failed>> {
+    fn new(job: &Job, submitted: Instant) -> Result<Self, Box<FailedPose>> {
         let limit = search_limit(job.max_speed);
         let searched_up_to = limit.clone().unwrap_or_default();
         let refused = |reason: &str| {
             let status = Some(StatusReport::Failed);
             let report = Report { status, searched_up_to, ..Report::unknown(reason, 0.0) };
-            Box::new(Failed { report, cable: None, shapes: Vec::new() })
+            Box::new(FailedPose { report, cable: None, shapes: Vec::new() })
         };
         let limit = limit.map_err(|reason| refused(&sentence(&reason)))?;
         let parsed = Scenario::from_json(&job.scenario).and_then(|scenario| scenario.to_robot());
         let (robot, motion) = parsed.map_err(|faults| refused(&faults.to_string()))?;
-        let local = Local::new(&robot, &motion).map_err(|failure| {
-            Box::new(Failed {
+        let local = LocalProblem::new(&robot, &motion).map_err(|failure| {
+            Box::new(FailedPose {
                 report: Report::without_pose(&failure, motion.speed(), limit),
                 cable: failure.reason.cable(),
                 shapes: failure.cables.iter().map(|shape| shape.as_ref().map(drawn)).collect(),
@@ -307,7 +307,7 @@ impl Pose {
             choice: job.mode,
             limit,
             submitted,
-            stage: Stage::Prompt,
+            phase: Phase::Prompt,
             curve: None,
             outcome: None,
         })
@@ -321,8 +321,8 @@ impl Pose {
     fn first_slice(&mut self) -> bool {
         let begun = Instant::now();
         while begun.elapsed() < SLICE {
-            match &mut self.stage {
-                Stage::Prompt => {
+            match &mut self.phase {
+                Phase::Prompt => {
                     self.go_on_with_all(begun);
                     if self.all.is_none() && self.extent == Extent::All {
                         return true;
@@ -330,10 +330,10 @@ impl Pose {
                     if self.all.is_none() || self.effort > PROMPT {
                         let polarisation = polarisation(self.choice);
                         let slowest = slowest_modes(self.local.clone(), self.motion.speed(), polarisation);
-                        self.stage = Stage::Slowest(Steps::new(slowest));
+                        self.phase = Phase::Slowest(Steps::new(slowest));
                     }
                 }
-                Stage::Slowest(steps) => {
+                Phase::Slowest(steps) => {
                     if let Some(rows) = steps.advance() {
                         self.modes = rows;
                         let values = self.modes.iter().map(|row| Complex::new(row.eigenvalue[0], row.eigenvalue[1]));
@@ -375,7 +375,7 @@ impl Pose {
 
     /// The pose as far as it is known, with the shape of a chosen mode.
     fn serve(&mut self) -> Slice {
-        let mut replies = vec![self.reply(Update::Pose(Box::new(PoseAnswer {
+        let mut replies = vec![self.reply(Update::Pose(Box::new(AnalysedPose {
             report: self.report.clone(),
             axial_forces: self.local.statics.cables.iter().map(axial_forces).collect(),
             modes: self.modes.clone(),
@@ -384,8 +384,8 @@ impl Pose {
         if self.choice.which != Which::Critical {
             replies.extend(self.shape());
         }
-        if matches!(self.stage, Stage::Prompt | Stage::Slowest(_)) {
-            self.stage = Stage::searching(self.limit);
+        if matches!(self.phase, Phase::Prompt | Phase::Slowest(_)) {
+            self.phase = Phase::searching(self.limit);
         }
         replies
     }
@@ -438,11 +438,11 @@ impl Pose {
     /// What comes once all modes are there, or cannot be computed.
     fn curve(&mut self) -> Slice {
         if let (Extent::All, Some(curve)) = (self.extent, self.curve.take()) {
-            self.stage = Stage::Curve { steps: curve.steps(self.local.clone(), self.effort), since: Instant::now() };
+            self.phase = Phase::Curve { steps: curve.steps(self.local.clone(), self.effort), since: Instant::now() };
             return Vec::new();
         }
         // Nor would the eigenvalues be found at other speeds.
-        self.stage = Stage::Sensitivities(self.sensitivities());
+        self.phase = Phase::Sensitivities(self.sensitivities());
         vec![self.reply(Update::Curve(Vec::new()))]
     }
 
@@ -451,11 +451,11 @@ impl Pose {
         let begun = Instant::now();
         let mut replies = loop {
             let replies = self.step(begun);
-            if !replies.is_empty() || begun.elapsed() >= SLICE || matches!(self.stage, Stage::Done) {
+            if !replies.is_empty() || begun.elapsed() >= SLICE || matches!(self.phase, Phase::Done) {
                 break replies;
             }
         };
-        if let (Stage::Searching { search, .. }, true) = (&self.stage, replies.is_empty()) {
+        if let (Phase::Searching { search, .. }, true) = (&self.phase, replies.is_empty()) {
             replies.push(self.reply(Update::Searching(search.searched_up_to())));
         }
         replies
@@ -463,9 +463,9 @@ impl Pose {
 
     /// One step of a slice that has `begun`.
     fn step(&mut self, begun: Instant) -> Slice {
-        match &mut self.stage {
-            Stage::Done | Stage::Prompt | Stage::Slowest(_) => Vec::new(),
-            Stage::Searching { search, .. } => {
+        match &mut self.phase {
+            Phase::Done | Phase::Prompt | Phase::Slowest(_) => Vec::new(),
+            Phase::Searching { search, .. } => {
                 // Where only the search fails, the pose with its eigenvalues stands, and so do curve and modes.
                 let outcome = match search.advance(&self.local.vibration) {
                     Ok(None) => return Vec::new(),
@@ -474,7 +474,7 @@ impl Pose {
                 };
                 let points: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
                 let scanned = points.last().map_or(0.0, |point| point[0]);
-                let mut replies = vec![self.reply(Update::Critical(CriticalAnswer {
+                let mut replies = vec![self.reply(Update::Critical(SearchEnd {
                     critical: outcome.as_ref().ok().and_then(Outcome::critical).cloned(),
                     failure: outcome.as_ref().err().cloned(),
                     searched_up_to: if outcome.is_ok() { self.limit } else { scanned },
@@ -490,24 +490,24 @@ impl Pose {
                 if self.choice.which == Which::Critical {
                     replies.extend(self.shape());
                 }
-                self.stage = Stage::All;
+                self.phase = Phase::All;
                 replies
             }
-            Stage::All => {
+            Phase::All => {
                 if self.all.is_none() {
                     return self.curve();
                 }
                 self.go_on_with_all(begun);
                 if self.all.is_none() { self.serve() } else { Vec::new() }
             }
-            Stage::Curve { steps, .. } => {
+            Phase::Curve { steps, .. } => {
                 let Some(points) = steps.advance() else { return Vec::new() };
-                self.stage = Stage::Sensitivities(self.sensitivities());
+                self.phase = Phase::Sensitivities(self.sensitivities());
                 vec![self.reply(Update::Curve(points))]
             }
-            Stage::Sensitivities(steps) => {
+            Phase::Sensitivities(steps) => {
                 let Some(found) = steps.advance() else { return Vec::new() };
-                self.stage = Stage::Done;
+                self.phase = Phase::Done;
                 vec![self.reply(Update::Sensitivities(found))]
             }
         }
@@ -520,13 +520,13 @@ fn polarisation(choice: ModeChoice) -> Polarisation {
 
 /// Does a check; there is nothing to say where there is no such check.
 fn check(index: usize) -> Slice {
-    let answer = CHECKS.get(index).map(|check| CheckAnswer {
+    let answer = CHECKS.get(index).map(|check| CheckResult {
         index,
         count: CHECKS.len(),
         name: check.name.into(),
         source: check.source.into(),
         unit: check.unit.into(),
-        outcome: (check.run)().map_err(|reason| sentence(&reason.to_string())),
+        comparison: (check.run)().map_err(|reason| sentence(&reason.to_string())),
     });
     answer.map(|answer| Reply { revision: 0, update: Update::Checked(Box::new(answer)) }).into_iter().collect()
 }
@@ -556,7 +556,7 @@ mod tests {
         let Some(Update::Pose(pose)) = replies.into_iter().map(|reply| reply.update).next() else { panic!("no pose") };
         // The search's own matrices; the pose has been computed from the others.
         let waiting = engine.waiting.as_mut().expect("a pose");
-        let mut local = Local::clone(&waiting.local);
+        let mut local = LocalProblem::clone(&waiting.local);
         local.vibration.chains[1].elements_mut()[2].stiffness.across = f64::NAN;
         waiting.local = Arc::new(local);
         (pose.report, std::iter::from_fn(|| engine.work()).flatten().collect())

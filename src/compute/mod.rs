@@ -9,9 +9,9 @@ mod engine;
 mod link;
 #[cfg(not(target_arch = "wasm32"))]
 mod native;
-mod places;
 mod pool;
 pub mod protocol;
+mod robot_study;
 #[cfg(any(target_arch = "wasm32", test))]
 mod watch;
 #[cfg(target_arch = "wasm32")]
@@ -22,8 +22,8 @@ mod worker;
 pub use engine::Engine;
 #[cfg(not(target_arch = "wasm32"))]
 pub use native::Compute;
-pub use places::Places;
-pub use pool::{Bench, Pool};
+pub use pool::{Pool, PoolWorker};
+pub use robot_study::RobotStudy;
 #[cfg(target_arch = "wasm32")]
 pub use web::Compute;
 #[cfg(target_arch = "wasm32")]

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scenario::Report;
 use crate::stability::{Critical, Mode};
-use crate::study::validation::Outcome;
+use crate::study::validation::Comparison;
 use crate::study::{Answer, Sensitivity, Study};
 
 /// Names a state of the document; later states have larger numbers.
@@ -68,13 +68,13 @@ pub struct Reply {
 pub enum Update {
     /// The pose and its spectrum at the scenario's speed; the critical speed is still to come. Of a large robot it comes twice:
     /// with the slowest modes at once, and with all of them after the critical speed.
-    Pose(Box<PoseAnswer>),
+    Pose(Box<AnalysedPose>),
     /// The pose has no answer. The analysis is complete.
-    Failed(Box<Failed>),
+    Failed(Box<FailedPose>),
     /// The search for the critical speed goes on; it has come to this speed, in m/s.
     Searching(f64),
     /// The search has ended: the analysis is complete.
-    Critical(CriticalAnswer),
+    Critical(SearchEnd),
     /// The growth rate against speed, to somewhat beyond the critical one: [speed in m/s, max Re λ in 1/s].
     Curve(Vec<[f64; 2]>),
     /// What each parameter does to the critical speed; or as a sentence why that cannot be told. The last of a pose.
@@ -82,14 +82,14 @@ pub enum Update {
     /// A mode's shape.
     Shape(Box<ModeShape>),
     /// A check against a known number; it belongs to no state of the document.
-    Checked(Box<CheckAnswer>),
+    Checked(Box<CheckResult>),
     /// The worker does not work, with the reason.
     Broken(String),
 }
 
 /// The pose and its spectrum.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PoseAnswer {
+pub struct AnalysedPose {
     /// The analysis without its critical speed.
     pub report: Report,
     /// Axial forces of the elements of each cable from the platform to the winch, in N.
@@ -113,7 +113,7 @@ pub enum Extent {
 
 /// A pose without an answer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Failed {
+pub struct FailedPose {
     /// The complete analysis, with the reason as a sentence.
     pub report: Report,
     /// The cable to blame, 0-based.
@@ -133,7 +133,7 @@ pub struct DrawnShape {
 
 /// The end of the search for the critical speed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CriticalAnswer {
+pub struct SearchEnd {
     /// The first crossing, if there is one.
     pub critical: Option<Critical>,
     /// Where the search has failed, so that the critical speed is not known: why, as a sentence.
@@ -144,7 +144,7 @@ pub struct CriticalAnswer {
     pub elapsed_ms: f64,
 }
 
-impl CriticalAnswer {
+impl SearchEnd {
     /// The analysis of which `report` is all but this answer.
     pub fn completed(&self, mut report: Report) -> Report {
         match &self.failure {
@@ -157,7 +157,7 @@ impl CriticalAnswer {
 
 /// A [check](crate::study::validation::Check) and what it has come to.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CheckAnswer {
+pub struct CheckResult {
     /// Which one, from 0.
     pub index: usize,
     /// How many there are.
@@ -169,7 +169,7 @@ pub struct CheckAnswer {
     /// The unit of the values; empty for plain numbers.
     pub unit: String,
     /// What it has come to; or why there is nothing to compare, as a sentence.
-    pub outcome: Result<Outcome, String>,
+    pub comparison: Result<Comparison, String>,
 }
 
 /// One row of the table of modes.
@@ -309,7 +309,7 @@ pub enum Outgoing {
     /// From the engine.
     Reply(Reply),
     /// From one of the pool's workers.
-    Batch(BatchAnswer),
+    Batch(AnsweredBatch),
     /// The sign of life.
     Alive,
 }
@@ -343,7 +343,7 @@ pub struct Batch {
 
 /// The answers to a batch; a worker answers its batches in the order in which they come.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct BatchAnswer {
+pub struct AnsweredBatch {
     /// The first so many of the batch's places: a worker stops when it has taken its time.
     pub answers: Vec<(usize, Answer)>,
     /// How long it took, in s.

@@ -10,7 +10,7 @@ use web_sys::{DedicatedWorkerGlobalScope, MessageChannel, MessageEvent};
 
 use super::Engine;
 use super::link::READY;
-use super::pool::Bench;
+use super::pool::PoolWorker;
 use super::protocol::{Incoming, Outgoing};
 
 /// Serves messages for as long as the page wants.
@@ -23,13 +23,13 @@ pub fn run_worker() -> Result<(), JsValue> {
     // A message to itself lets the worker take in newer requests between two slices.
     let again = MessageChannel::new()?;
     let at_work = Rc::new(Cell::new(false));
-    let bench = Rc::new(RefCell::new(Bench::default()));
+    let pool_worker = Rc::new(RefCell::new(PoolWorker::default()));
     let on_slice = {
-        let (engine, bench, scope) = (engine.clone(), bench.clone(), scope.clone());
+        let (engine, pool_worker, scope) = (engine.clone(), pool_worker.clone(), scope.clone());
         let (again, at_work) = (again.clone(), at_work.clone());
         Closure::<dyn FnMut()>::new(move || {
             let replies = engine.borrow_mut().work();
-            let answered = if replies.is_none() { bench.borrow_mut().work() } else { None };
+            let answered = if replies.is_none() { pool_worker.borrow_mut().work() } else { None };
             if replies.is_none() && answered.is_none() {
                 at_work.set(false);
                 return;
@@ -50,7 +50,7 @@ pub fn run_worker() -> Result<(), JsValue> {
         let bytes = event.data().dyn_into::<Uint8Array>().map(|array| array.to_vec()).unwrap_or_default();
         match postcard::from_bytes(&bytes) {
             Ok(Incoming::Request(request)) => engine.borrow_mut().submit(request),
-            Ok(Incoming::Task(task)) => bench.borrow_mut().submit(task),
+            Ok(Incoming::Task(task)) => pool_worker.borrow_mut().submit(task),
             Ok(Incoming::AreYouThere) => return send(&outbox, &Outgoing::Alive),
             Err(_) => return,
         }

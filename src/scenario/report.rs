@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError, WaveLimit};
 use crate::robot::{Motion, Robot};
 use crate::stability::{
-    Critical, CriticalSearch, Eigenproblem, Kind, Method, NotConverged, Spectrum, unstable_eigenvalues,
+    Critical, CriticalSearch, Eigenproblem, Instability, Method, NotConverged, Spectrum, unstable_eigenvalues,
 };
-use crate::study::{Knob, Local, Status};
+use crate::study::{Knob, LocalProblem, Status};
 
 /// The name and version of the format.
 pub const SCHEMA: &str = "tautline/analysis/1";
@@ -139,11 +139,11 @@ pub enum KindReport {
     Divergence,
 }
 
-impl From<Kind> for KindReport {
-    fn from(kind: Kind) -> Self {
+impl From<Instability> for KindReport {
+    fn from(kind: Instability) -> Self {
         match kind {
-            Kind::Flutter => Self::Flutter,
-            Kind::Divergence => Self::Divergence,
+            Instability::Flutter => Self::Flutter,
+            Instability::Divergence => Self::Divergence,
         }
     }
 }
@@ -198,7 +198,7 @@ impl From<&Critical> for CriticalReport {
 impl Report {
     /// The report of a pose moving at `speed` (m/s) whose critical speed is not known yet: [`Self::set_critical`]
     /// completes it. Where the eigenvalues could not be computed all else stays, and stability is told by their count.
-    pub fn of_pose(local: &Local, speed: f64, spectrum: Option<&Spectrum>) -> Self {
+    pub fn of_pose(local: &LocalProblem, speed: f64, spectrum: Option<&Spectrum>) -> Self {
         let Some(spectrum) = spectrum else {
             let reason = Some(sentence(&NotConverged.to_string()));
             return Self { reason, ..Self::without_eigenvalues(local, speed) };
@@ -212,13 +212,13 @@ impl Report {
     }
 
     /// The report of a pose whose eigenvalues are still being computed: whether it is stable is told by their count.
-    pub fn without_eigenvalues(local: &Local, speed: f64) -> Self {
+    pub fn without_eigenvalues(local: &LocalProblem, speed: f64) -> Self {
         let stable = unstable_eigenvalues(&local.vibration, speed).map(|count| count == 0);
         Self { stable, ..Self::at_rest(local, speed) }
     }
 
     /// The report of a pose whose eigenvalues at `speed` (m/s) are not known.
-    fn at_rest(local: &Local, speed: f64) -> Self {
+    fn at_rest(local: &LocalProblem, speed: f64) -> Self {
         let cables = local.statics.cables.iter().zip(&local.rates);
         Self {
             feasible: Some(true),
@@ -284,7 +284,7 @@ impl Report {
     /// The same by `method`, calling `watch` with the speed (m/s) up to which the search has come, again and again.
     pub fn analyze_watched(robot: &Robot, motion: &Motion, limit: f64, method: Method, watch: impl FnMut(f64)) -> Self {
         let speed = motion.speed();
-        let local = match Local::new(robot, motion) {
+        let local = match LocalProblem::new(robot, motion) {
             Ok(local) => local,
             Err(failure) => return Self::without_pose(&failure, speed, limit),
         };
@@ -300,7 +300,7 @@ impl Report {
     /// The statics and the critical speed, searched up to `limit` (m/s), without what belongs to the motion's own speed:
     /// for those who ask again and again.
     pub fn critical_speed(robot: &Robot, motion: &Motion, limit: f64) -> Self {
-        let local = match Local::new(robot, motion) {
+        let local = match LocalProblem::new(robot, motion) {
             Ok(local) => local,
             Err(failure) => return Self::without_pose(&failure, motion.speed(), limit),
         };
@@ -309,7 +309,7 @@ impl Report {
         report
     }
 
-    fn search(&mut self, local: &Local, limit: f64, method: Method, mut watch: impl FnMut(f64)) {
+    fn search(&mut self, local: &LocalProblem, limit: f64, method: Method, mut watch: impl FnMut(f64)) {
         let mut search = CriticalSearch::by(method, limit);
         loop {
             watch(search.searched_up_to());

@@ -49,10 +49,10 @@ const AGREEMENT: f64 = 1e-7;
 /// A solver for the spectra of one problem at one speed after the other.
 ///
 /// ```
-/// use tautline::{Local, Motion, robot};
+/// use tautline::{LocalProblem, Motion, robot};
 ///
 /// let motion = Motion::new([0.0, 0.0], [1.0, 0.0], 5.0)?;
-/// let local = Local::new(&robot::paper()?, &motion).map_err(|failure| failure.reason)?;
+/// let local = LocalProblem::new(&robot::paper()?, &motion).map_err(|failure| failure.reason)?;
 /// let mut spectra = local.spectra.clone();
 /// let growth = [5.0, 12.0].map(|speed| spectra.spectrum(&local.vibration, speed).map(|spectrum| spectrum.growth_rate()));
 /// assert!(matches!(growth, [Ok(below), Ok(above)] if below < 0.0 && above > 0.0));

@@ -196,7 +196,7 @@ mod tests {
     use super::*;
     use crate::robot::{Linearisation, Motion, Robot, RobotSpec, paper_spec};
     use crate::stability::Eigenproblem;
-    use crate::study::Local;
+    use crate::study::LocalProblem;
 
     /// A zero half a length from a step's middle is off the trapezoidal rule by π/2 − 1 and changes the derivative by 2.
     #[test]
@@ -221,7 +221,7 @@ mod tests {
         for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
             for (at, towards) in [([0.0, 0.0], [1.0, 0.0]), ([4.0, 1.0], [1.0, 1.0]), ([7.0, 0.0], [-1.0, 0.0])] {
                 let robot = Robot::new(RobotSpec { elements: 6, linearisation, ..paper_spec() }).unwrap();
-                let local = Local::new(&robot, &Motion::new(at, towards, 5.0).unwrap()).unwrap();
+                let local = LocalProblem::new(&robot, &Motion::new(at, towards, 5.0).unwrap()).unwrap();
                 let dense = Eigenproblem::new(&local.vibration).unwrap();
                 let bounds = Bounds::new(&local.vibration).unwrap();
                 let mut most = 0;

@@ -41,7 +41,7 @@ const FROM_REST: f64 = 0.0625;
 /// How stability is lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
-pub enum Kind {
+pub enum Instability {
     /// An oscillation grows.
     Flutter,
     /// A displacement grows without oscillating.
@@ -57,7 +57,7 @@ pub struct Critical {
     /// The eigenvalue that crosses, with Im λ ≥ 0, in 1/s.
     pub eigenvalue: Complex<f64>,
     /// Flutter, or divergence where Im λ = 0.
-    pub kind: Kind,
+    pub kind: Instability,
     /// The cable with the largest share of the mode's kinetic energy, 0-based.
     pub cable: usize,
 }
@@ -66,8 +66,8 @@ impl Critical {
     /// |Im λ|/2π of the crossing eigenvalue in Hz; 0 for divergence.
     pub fn frequency_hz(&self) -> f64 {
         match self.kind {
-            Kind::Flutter => self.eigenvalue.im.abs() / TAU,
-            Kind::Divergence => 0.0,
+            Instability::Flutter => self.eigenvalue.im.abs() / TAU,
+            Instability::Divergence => 0.0,
         }
     }
 }
@@ -151,10 +151,10 @@ pub fn is_limit(speed: f64) -> bool {
 ///
 /// ```
 /// use tautline::stability::{CriticalSearch, Outcome};
-/// use tautline::{Local, Motion, robot};
+/// use tautline::{LocalProblem, Motion, robot};
 ///
 /// let motion = Motion::new([0.0, 0.0], [1.0, 0.0], 5.0)?;
-/// let local = Local::new(&robot::paper()?, &motion).map_err(|failure| failure.reason)?;
+/// let local = LocalProblem::new(&robot::paper()?, &motion).map_err(|failure| failure.reason)?;
 /// let mut search = CriticalSearch::new(11.0);
 /// let outcome = loop {
 ///     if let Some(outcome) = search.advance(&local.vibration)? {
@@ -286,7 +286,7 @@ impl CriticalSearch {
                 Search::Crossing { omega, speed } => {
                     let eigenvalue = Complex::new(0.0, omega);
                     let mode = mode(vibration, speed, eigenvalue, Polarisation::default());
-                    let kind = if omega > 0.0 { Kind::Flutter } else { Kind::Divergence };
+                    let kind = if omega > 0.0 { Instability::Flutter } else { Instability::Divergence };
                     Outcome::Found(Critical { speed, eigenvalue, kind, cable: responsible_cable(vibration, &mode) })
                 }
             })),
@@ -348,7 +348,7 @@ impl CriticalSearch {
             };
             let eigenvalue = spectrum(seen_at)?.rightmost();
             let mode = mode(vibration, seen_at, eigenvalue, Polarisation::default());
-            let kind = if eigenvalue.im > ROUNDING * scale { Kind::Flutter } else { Kind::Divergence };
+            let kind = if eigenvalue.im > ROUNDING * scale { Instability::Flutter } else { Instability::Divergence };
             let critical = Critical { speed: critical, eigenvalue, kind, cable: responsible_cable(vibration, &mode) };
             return Ok(Some(Outcome::Found(critical)));
         }
@@ -401,14 +401,14 @@ fn refine(
 mod tests {
     use super::*;
     use crate::robot::{Cable, Damping, Linearisation, Motion, Robot, RobotSpec, TensionLaw, Vec2, paper_spec};
-    use crate::study::Local;
+    use crate::study::LocalProblem;
 
     /// Also by the scan, which undamped robots are left to.
     #[test]
     fn a_search_up_to_no_speed_ends_at_once() {
         for damping in [paper_spec().damping, Damping { alpha: 0.0, beta: 0.0 }] {
             let robot = Robot::new(RobotSpec { damping, ..paper_spec() }).unwrap();
-            let local = Local::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+            let local = LocalProblem::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
             for limit in [0.0, -1.0, f64::NAN] {
                 for method in [Method::Structured, Method::Dense] {
                     let outcome = CriticalSearch::by(method, limit).run(&local.vibration);
@@ -423,7 +423,7 @@ mod tests {
     fn a_search_tells_how_far_it_has_come_and_why_it_scans() {
         let local = |damping| {
             let robot = Robot::new(RobotSpec { damping, ..paper_spec() }).unwrap();
-            Local::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
+            LocalProblem::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
         };
         let damped = local(paper_spec().damping);
         let mut scan = CriticalSearch::by(Method::Dense, 0.25);
@@ -474,7 +474,7 @@ mod tests {
             ..paper_spec()
         })
         .unwrap();
-        let local = Local::new(&robot, &Motion::new([0.2, -0.5], [0.1, -1.0], 5.0).unwrap()).unwrap();
+        let local = LocalProblem::new(&robot, &Motion::new([0.2, -0.5], [0.1, -1.0], 5.0).unwrap()).unwrap();
         for limit in [1e4, 1e9, f64::INFINITY] {
             let mut search = CriticalSearch::new(limit);
             let mut slices = 0;
@@ -498,7 +498,7 @@ mod tests {
     #[test]
     fn a_crossing_beyond_the_limit_is_not_found() {
         let robot = Robot::new(RobotSpec { elements: 2, ..paper_spec() }).unwrap();
-        let local = Local::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+        let local = LocalProblem::new(&robot, &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
         let Ok(Outcome::Found(Critical { speed, .. })) = structured(&local.vibration, 30.0) else {
             panic!("no critical speed")
         };
@@ -523,14 +523,14 @@ mod tests {
             (0.1, 0.002, 0.0, false),
         ] {
             let robot = Robot::new(RobotSpec { damping: Damping { alpha, beta }, ..paper_spec() }).unwrap();
-            let local = Local::new(&robot, &Motion::new([x, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
+            let local = LocalProblem::new(&robot, &Motion::new([x, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap();
             let structured = structured(&local.vibration, 15.0);
             assert_eq!(structured == Err(Doubt::Undamped), scan, "{structured:?}");
             let dense = CriticalSearch::by(Method::Dense, 15.0).run(&local.vibration).unwrap();
             if let (Ok(structured), Outcome::Found(b)) = (structured, dense) {
                 let Outcome::Found(a) = structured else { panic!("{structured:?}") };
                 assert!((a.speed - b.speed).abs() < 1e-6, "{a:?} {b:?}");
-                assert_eq!((a.kind, b.kind), (Kind::Flutter, Kind::Flutter));
+                assert_eq!((a.kind, b.kind), (Instability::Flutter, Instability::Flutter));
                 assert!(a.speed == 0.0 || a.cable == b.cable, "{a:?} {b:?}");
             }
         }
@@ -543,7 +543,7 @@ mod tests {
         for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
             for (at, towards) in [([2.0, 0.5], [1.0, 0.0]), ([-3.0, 1.0], [0.3, 1.0]), ([0.0, 0.0], [0.0, 1.0])] {
                 let robot = Robot::new(RobotSpec { damping, linearisation, elements: 5, ..paper_spec() }).unwrap();
-                let local = Local::new(&robot, &Motion::new(at, towards, 5.0).unwrap()).unwrap();
+                let local = LocalProblem::new(&robot, &Motion::new(at, towards, 5.0).unwrap()).unwrap();
                 let Ok(Outcome::Found(critical)) = structured(&local.vibration, 15.0) else { panic!("no growth") };
                 assert_eq!((critical.speed, critical.eigenvalue.re), (0.0, 0.0));
                 // The fastest growth, and in the mode that is named.

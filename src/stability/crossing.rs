@@ -584,13 +584,13 @@ mod tests {
     use super::*;
     use crate::robot::{Motion, paper};
     use crate::stability::Eigenproblem;
-    use crate::study::Local;
+    use crate::study::LocalProblem;
 
-    fn local() -> Local {
-        Local::new(&paper().unwrap(), &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
+    fn local() -> LocalProblem {
+        LocalProblem::new(&paper().unwrap(), &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
     }
 
-    fn plane(local: &Local) -> Plane {
+    fn plane(local: &LocalProblem) -> Plane {
         Plane {
             counter: Counter::new(
                 Bounds::new(&local.vibration).unwrap(),
@@ -607,7 +607,7 @@ mod tests {
     }
 
     /// The first crossing.
-    fn crossing(local: &Local) -> [f64; 2] {
+    fn crossing(local: &LocalProblem) -> [f64; 2] {
         let mut search = FirstCrossing::new(&local.vibration, 0.0, 20.0).unwrap();
         loop {
             match search.advance(&local.vibration).unwrap() {

@@ -24,7 +24,7 @@ pub use aberth::Spectra;
 pub use characteristic::{Characteristic, LogDeterminant};
 pub use count::unstable_eigenvalues;
 pub use critical::{
-    ALLOWED_LIMIT, Critical, CriticalSearch, Kind, LARGEST_LIMIT, Method, Outcome, SCAN_STEP, Sample, is_limit,
+    ALLOWED_LIMIT, Critical, CriticalSearch, Instability, LARGEST_LIMIT, Method, Outcome, SCAN_STEP, Sample, is_limit,
     structured,
 };
 pub use crossing::Doubt;

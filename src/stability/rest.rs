@@ -8,7 +8,7 @@ use nalgebra::Complex;
 
 use crate::mechanics::Vibration;
 use crate::stability::modes::responsible_cable;
-use crate::stability::{Critical, Kind, Mode, NotConverged, Polarisation, Spectra, mode};
+use crate::stability::{Critical, Instability, Mode, NotConverged, Polarisation, Spectra, mode};
 
 /// Growth below this part of what it is the sum of is none: modes of which paying out takes what reeling in gives, or
 /// that no moving cable has a share in.
@@ -71,7 +71,7 @@ impl FromRest {
             let faster = self.fastest.as_ref().is_none_or(|(fastest, _)| growth > *fastest + NONE * size);
             if growth > NONE * size && faster {
                 let cable = responsible_cable(vibration, &mode);
-                self.fastest = Some((growth, Critical { speed: 0.0, eigenvalue, kind: Kind::Flutter, cable }));
+                self.fastest = Some((growth, Critical { speed: 0.0, eigenvalue, kind: Instability::Flutter, cable }));
             }
         }
         if !self.open.is_empty() {

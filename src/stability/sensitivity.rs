@@ -182,7 +182,7 @@ mod tests {
     use super::*;
     use crate::mechanics::{Chain, Hub, Stiffness};
     use crate::robot::Vec2;
-    use crate::stability::Kind;
+    use crate::stability::Instability;
 
     /// An element of two that hold one node between fixed ends. Together they give it the mass 2m, C = 2c and the stiffness
     /// 2k; D is zero, since the rate of the inflow makes up for its square.
@@ -214,7 +214,7 @@ mod tests {
     }
 
     fn critical(omega: f64, speed: f64) -> Critical {
-        Critical { speed, eigenvalue: C64::new(0.0, omega), kind: Kind::Flutter, cable: 0 }
+        Critical { speed, eigenvalue: C64::new(0.0, omega), kind: Instability::Flutter, cable: 0 }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::ops::RangeInclusive;
 
-use crate::stability::{Critical, Kind};
+use crate::stability::{Critical, Instability};
 use crate::study::{Status, Verdict};
 
 /// Of a value: smaller differences are those of the search, not of the mesh.
@@ -19,19 +19,19 @@ const LEAST_SHARE: f64 = 0.25;
 /// Flutter is an eigenvalue of linear elements and has the order 2. A divergence is where the flow of cable reaches the
 /// speed of waves, nearly always at the winch; on a mesh that is decided by the last element's mean, half an element away
 /// from there, which is of order 1 (docs/theory.md section 10).
-pub fn known_order(kind: Kind) -> f64 {
+pub fn known_order(kind: Instability) -> f64 {
     match kind {
-        Kind::Flutter => 2.0,
-        Kind::Divergence => 1.0,
+        Instability::Flutter => 2.0,
+        Instability::Divergence => 1.0,
     }
 }
 
 /// The orders that fine enough meshes show. Between them lies the known one; a divergence shows more than 1 by about
 /// 1/ln n. Where meshes show another, all that extrapolation adds is in doubt.
-fn settled_orders(kind: Kind) -> RangeInclusive<f64> {
+fn settled_orders(kind: Instability) -> RangeInclusive<f64> {
     match kind {
-        Kind::Flutter => 1.8..=2.2,
-        Kind::Divergence => 0.9..=1.5,
+        Instability::Flutter => 1.8..=2.2,
+        Instability::Divergence => 0.9..=1.5,
     }
 }
 
@@ -41,7 +41,7 @@ pub enum Convergence {
     /// The limit can be told.
     Limit(Extrapolation),
     /// It cannot.
-    Unknown(Doubt),
+    Unknown(NoLimit),
 }
 
 /// The limit of the critical speed as n → ∞.
@@ -73,12 +73,12 @@ pub struct Estimate {
 
 /// Why the limit cannot be told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Doubt {
+pub enum NoLimit {
     /// No critical speed on the finest mesh.
     NoneCritical,
     /// A critical speed on one mesh only.
     TooFew,
-    /// Kind, responsible cable or mode are not the same on the finest meshes.
+    /// Instability, responsible cable or mode are not the same on the finest meshes.
     Changes,
     /// The differences between meshes do not shrink as they should: the meshes are too coarse.
     Unsettled,
@@ -101,9 +101,9 @@ pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
     meshes.dedup_by_key(|(n, _)| *n);
     let critical: Vec<(usize, Option<&Critical>)> =
         meshes.iter().map(|(n, verdict)| (*n, verdict.critical())).collect();
-    let Some((_, Some(_))) = critical.last() else { return Convergence::Unknown(Doubt::NoneCritical) };
+    let Some((_, Some(_))) = critical.last() else { return Convergence::Unknown(NoLimit::NoneCritical) };
     if critical.iter().filter(|(_, critical)| critical.is_some()).count() < 2 {
-        return Convergence::Unknown(Doubt::TooFew);
+        return Convergence::Unknown(NoLimit::TooFew);
     }
     let at = |n: usize| critical.iter().position(|(other, _)| *other == n);
     let thrice = (0..critical.len()).rev().find_map(|i| {
@@ -117,12 +117,12 @@ pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
     let mut mode = None;
     for &(_, found) in used.iter().rev().map(|&i| &critical[i]).chain(&critical[used[0]..]) {
         match (found, mode) {
-            (Some(found), Some(before)) if !same_mode(before, found) => return Convergence::Unknown(Doubt::Changes),
-            (None, _) => return Convergence::Unknown(Doubt::Changes),
+            (Some(found), Some(before)) if !same_mode(before, found) => return Convergence::Unknown(NoLimit::Changes),
+            (None, _) => return Convergence::Unknown(NoLimit::Changes),
             _ => mode = found,
         }
     }
-    let (finest, Some(at_finest)) = critical[used[0]] else { return Convergence::Unknown(Doubt::NoneCritical) };
+    let (finest, Some(at_finest)) = critical[used[0]] else { return Convergence::Unknown(NoLimit::NoneCritical) };
     let coarser: Vec<(usize, &Critical)> =
         used[1..].iter().filter_map(|&i| Some((critical[i].0, critical[i].1?))).collect();
     let kind = at_finest.kind;
@@ -138,7 +138,7 @@ pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
         Some((Estimate { limit: value_here + change, uncertainty }, None))
     };
     let Some((speed, order)) = extrapolated(&|critical| critical.speed) else {
-        return Convergence::Unknown(Doubt::Unsettled);
+        return Convergence::Unknown(NoLimit::Unsettled);
     };
     let frequencies = || coarser.iter().map(|(_, critical)| critical.frequency_hz());
     // A frequency need not settle as the speed does: then it is as uncertain as it changes from mesh to mesh.
@@ -164,7 +164,7 @@ pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
 
 /// The limit of values at n, 2n and 4n elements, and the order seen where the values tell one; `None` where they do not
 /// settle.
-fn from_three(quarter: f64, half: f64, finest: f64, kind: Kind) -> Option<(Estimate, Option<f64>)> {
+fn from_three(quarter: f64, half: f64, finest: f64, kind: Instability) -> Option<(Estimate, Option<f64>)> {
     let known = known_order(kind);
     let (first, second) = (half - quarter, finest - half);
     let rounding = ROUNDING * finest.abs();

@@ -9,17 +9,17 @@ use crate::stability::{CriticalSearch, NotConverged, Outcome, Spectra, Spectrum}
 ///
 /// ```
 /// use tautline::stability::Outcome;
-/// use tautline::{Local, Motion, robot};
+/// use tautline::{LocalProblem, Motion, robot};
 ///
 /// let motion = Motion::new([6.0, 0.0], [1.0, 0.0], 5.0)?;
-/// let local = Local::new(&robot::paper()?, &motion).map_err(|failure| failure.reason)?;
+/// let local = LocalProblem::new(&robot::paper()?, &motion).map_err(|failure| failure.reason)?;
 /// assert!(local.spectrum(motion.speed())?.is_stable());
 /// let outcome = local.critical_speed(40.0)?;
 /// assert!(matches!(outcome, Outcome::Found(critical) if (critical.speed - 10.0125).abs() < 1e-4));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Local {
+pub struct LocalProblem {
     /// Every cable's static shape.
     pub statics: Statics,
     /// L' and L'' of every cable.
@@ -32,7 +32,7 @@ pub struct Local {
     pub spectra: Spectra,
 }
 
-impl Local {
+impl LocalProblem {
     /// Computes all that does not depend on the speed.
     ///
     /// # Errors

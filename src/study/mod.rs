@@ -33,7 +33,7 @@ mod verdict;
 
 pub use crate::mechanics::Knob;
 pub use grid::{Grid, Line, evenly, workspace};
-pub use local::Local;
+pub use local::LocalProblem;
 pub use sensitivity::{Sensitivity, sensitivities, sensitivities_in_steps};
-pub use studies::{Answer, Asked, Study};
-pub use verdict::{Directions, NoAnswer, Status, Verdict, compass, verdict};
+pub use studies::{Answer, Mapped, Study};
+pub use verdict::{Directions, NoEigenvalues, Status, Verdict, compass, verdict};

@@ -3,7 +3,7 @@
 use crate::mechanics::{self, Knob, Vibration};
 use crate::robot::{Damping, Motion, Robot};
 use crate::stability::steps::{finish, step};
-use crate::stability::{Critical, Crossing, Kind, NoSensitivity};
+use crate::stability::{Critical, Crossing, Instability, NoSensitivity};
 
 /// What one parameter does to the crossing, as relative derivatives: percent per percent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,7 +57,7 @@ pub async fn sensitivities_in_steps(
             }
         };
         let speed = shift.speed / critical.speed;
-        let frequency = (critical.kind == Kind::Flutter).then(|| shift.omega / critical.eigenvalue.im);
+        let frequency = (critical.kind == Instability::Flutter).then(|| shift.omega / critical.eigenvalue.im);
         let finite = speed.is_finite() && frequency.is_none_or(f64::is_finite);
         if finite { Ok(Sensitivity { knob, speed, frequency }) } else { Err(out_of_range) }
     };

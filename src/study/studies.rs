@@ -8,12 +8,12 @@ use crate::stability::steps::finish;
 use crate::study::campbell::{self, Track};
 use crate::study::grid::coarse_first_in_a_row;
 use crate::study::verdict::verdict_in_steps;
-use crate::study::{Directions, Grid, Line, Local, NoAnswer, Verdict, compass, evenly};
+use crate::study::{Directions, Grid, Line, LocalProblem, NoEigenvalues, Verdict, compass, evenly};
 
 /// What a map shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
-pub enum Asked {
+pub enum Mapped {
     /// The critical speed.
     Critical {
         /// Searched up to this speed in m/s, finite and greater than 0.
@@ -45,7 +45,7 @@ pub enum Study {
         /// In which directions.
         directions: Directions,
         /// What it shows.
-        asked: Asked,
+        mapped: Mapped,
     },
     /// The critical speed in every direction, see [`compass`].
     Polar {
@@ -101,12 +101,12 @@ pub enum Answer {
         wave_limit: Option<f64>,
     },
     /// The largest growth rate max Re λ in 1/s, or why it is not known.
-    Growth(Result<f64, NoAnswer>),
+    Growth(Result<f64, NoEigenvalues>),
     /// The eigenvalues in 1/s in rising order of frequency: of a complex pair the one with Im λ > 0, real ones each, of
     /// those that are equal by the problem's structure one. Or why they are not known.
-    Spectrum(Result<Vec<Complex<f64>>, NoAnswer>),
+    Spectrum(Result<Vec<Complex<f64>>, NoEigenvalues>),
     /// The modes, or why they are not known.
-    Modes(Result<Vec<Track>, NoAnswer>),
+    Modes(Result<Vec<Track>, NoEigenvalues>),
 }
 
 impl Study {
@@ -154,12 +154,12 @@ impl Study {
     pub async fn answer_in_steps(&self, robot: &Robot, index: usize) -> Answer {
         match self {
             Self::Line { line, limit } => critical(robot, line.position(index), line.direction, *limit).await,
-            Self::Map { grid, directions, asked } => match *asked {
-                Asked::Critical { limit } => {
+            Self::Map { grid, directions, mapped } => match *mapped {
+                Mapped::Critical { limit } => {
                     let (direction, verdict, wave_limit) = directions.verdict(robot, grid.position(index), limit).await;
                     Answer::Critical { direction, verdict, wave_limit }
                 }
-                Asked::Growth { speed } => Answer::Growth(directions.growth(robot, grid.position(index), speed).await),
+                Mapped::Growth { speed } => Answer::Growth(directions.growth(robot, grid.position(index), speed).await),
             },
             Self::Polar { position, count, limit } => critical(robot, *position, compass(index, *count), *limit).await,
             Self::Speeds { position, direction, to, count } => {
@@ -180,14 +180,14 @@ impl Study {
     pub fn unknown(&self, index: usize) -> Answer {
         match self {
             Self::Line { line, .. } => unknown(line.direction),
-            Self::Map { asked: Asked::Growth { .. }, .. } => Answer::Growth(Err(NoAnswer::Failed)),
+            Self::Map { mapped: Mapped::Growth { .. }, .. } => Answer::Growth(Err(NoEigenvalues::Failed)),
             Self::Map { directions: Directions::One(direction), .. } | Self::Elements { direction, .. } => {
                 unknown(*direction)
             }
             Self::Map { directions: Directions::Worst(_), .. } => unknown(Vec2::x()),
             Self::Polar { count, .. } => unknown(compass(index, *count)),
-            Self::Speeds { .. } => Answer::Spectrum(Err(NoAnswer::Failed)),
-            Self::Modes { .. } => Answer::Modes(Err(NoAnswer::Failed)),
+            Self::Speeds { .. } => Answer::Spectrum(Err(NoEigenvalues::Failed)),
+            Self::Modes { .. } => Answer::Modes(Err(NoEigenvalues::Failed)),
         }
     }
 }
@@ -205,9 +205,14 @@ async fn critical(robot: &Robot, position: Vec2, direction: Vec2, limit: f64) ->
     Answer::Critical { direction: motion.direction(), verdict, wave_limit }
 }
 
-async fn spectrum(robot: &Robot, position: Vec2, direction: Vec2, speed: f64) -> Result<Vec<Complex<f64>>, NoAnswer> {
-    let motion = Motion::new(position, direction, speed).map_err(|_| NoAnswer::Infeasible)?;
-    let local = Local::new(robot, &motion).map_err(|failure| NoAnswer::from(&failure))?;
-    let spectrum = local.spectrum_in_steps(speed).await.map_err(|_| NoAnswer::Failed)?;
+async fn spectrum(
+    robot: &Robot,
+    position: Vec2,
+    direction: Vec2,
+    speed: f64,
+) -> Result<Vec<Complex<f64>>, NoEigenvalues> {
+    let motion = Motion::new(position, direction, speed).map_err(|_| NoEigenvalues::Infeasible)?;
+    let local = LocalProblem::new(robot, &motion).map_err(|failure| NoEigenvalues::from(&failure))?;
+    let spectrum = local.spectrum_in_steps(speed).await.map_err(|_| NoEigenvalues::Failed)?;
     Ok(spectrum.modes().map(|mode| mode.eigenvalue).collect())
 }

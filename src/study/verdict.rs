@@ -6,7 +6,7 @@ use crate::mechanics::{self, Failure, Statics};
 use crate::robot::{Motion, Robot, Vec2};
 use crate::stability::steps::finish;
 use crate::stability::{Critical, Outcome, is_lower};
-use crate::study::Local;
+use crate::study::LocalProblem;
 
 /// The critical speed of a pose in one direction, or why there is none.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,14 +80,14 @@ pub enum Status {
 /// Why a pose has no eigenvalues.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
-pub enum NoAnswer {
+pub enum NoEigenvalues {
     /// It has no taut equilibrium.
     Infeasible,
     /// Its statics or its eigenvalues could not be computed.
     Failed,
 }
 
-impl NoAnswer {
+impl NoEigenvalues {
     /// How the search for the eigenvalues ended.
     pub fn status(self) -> Status {
         match self {
@@ -97,7 +97,7 @@ impl NoAnswer {
     }
 }
 
-impl From<&Failure> for NoAnswer {
+impl From<&Failure> for NoEigenvalues {
     fn from(failure: &Failure) -> Self {
         if failure.reason.feasible() == Some(false) { Self::Infeasible } else { Self::Failed }
     }
@@ -128,7 +128,7 @@ fn lower(a: Option<f64>, b: Option<f64>) -> Option<f64> {
 }
 
 async fn along(robot: &Robot, statics: Statics, direction: Vec2, limit: f64) -> (Verdict, Option<f64>) {
-    let local = match Local::along(robot, statics, direction) {
+    let local = match LocalProblem::along(robot, statics, direction) {
         Ok(local) => local,
         Err(failure) => return (Verdict::from(&failure), None),
     };
@@ -221,15 +221,17 @@ impl Directions {
     ///
     /// # Errors
     /// Why it is not known.
-    pub(super) async fn growth(self, robot: &Robot, position: Vec2, speed: f64) -> Result<f64, NoAnswer> {
-        let no_answer = |verdict| if verdict == Verdict::Infeasible { NoAnswer::Infeasible } else { NoAnswer::Failed };
+    pub(super) async fn growth(self, robot: &Robot, position: Vec2, speed: f64) -> Result<f64, NoEigenvalues> {
+        let no_answer =
+            |verdict| if verdict == Verdict::Infeasible { NoEigenvalues::Infeasible } else { NoEigenvalues::Failed };
         let statics = statics(robot, position).map_err(no_answer)?;
         let mut rates = Vec::new();
         for direction in self.each() {
-            let local = Local::along(robot, statics.clone(), direction).map_err(|failure| NoAnswer::from(&failure))?;
-            rates.push(local.spectrum_in_steps(speed).await.map_err(|_| NoAnswer::Failed)?.growth_rate());
+            let local = LocalProblem::along(robot, statics.clone(), direction)
+                .map_err(|failure| NoEigenvalues::from(&failure))?;
+            rates.push(local.spectrum_in_steps(speed).await.map_err(|_| NoEigenvalues::Failed)?.growth_rate());
         }
-        rates.into_iter().max_by(f64::total_cmp).ok_or(NoAnswer::Infeasible)
+        rates.into_iter().max_by(f64::total_cmp).ok_or(NoEigenvalues::Infeasible)
     }
 }
 

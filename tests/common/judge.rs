@@ -2,8 +2,8 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 use tautline::robot::Damping;
-use tautline::stability::{Critical, Kind, Outcome, Solver, Spectrum};
-use tautline::{Local, Robot};
+use tautline::stability::{Critical, Instability, Outcome, Solver, Spectrum};
+use tautline::{LocalProblem, Robot};
 
 use super::dense::Parts;
 use super::referee::{Known, Referee};
@@ -38,13 +38,13 @@ const PROMISED: f64 = 1e-6;
 /// A robot with its referee.
 pub struct Drawn {
     pub robot: Robot,
-    pub local: Local,
+    pub local: LocalProblem,
     pub referee: Referee,
 }
 
 impl Drawn {
     /// A robot at rest on its way.
-    pub fn new(robot: Robot, local: Local) -> Self {
+    pub fn new(robot: Robot, local: LocalProblem) -> Self {
         let referee = Referee::new(&robot, &local.statics, &local.rates);
         Self { robot, local, referee }
     }
@@ -113,7 +113,7 @@ fn judge_crossing(drawn: &Drawn, critical: &Critical) -> Result<f64, Verdict> {
     let distance = |k: &&Known| (k.lambda - critical.eigenvalue).norm();
     let nearest = known.iter().min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("eigenvalues");
     // A divergence is at λ = 0 whatever the rounding, which moves its speed alone.
-    if critical.kind == Kind::Flutter && nearest.error > 0.1 * nearest.lambda.norm() {
+    if critical.kind == Instability::Flutter && nearest.error > 0.1 * nearest.lambda.norm() {
         return Err(Verdict::NotJudged(format!("{critical:?} crosses by what is known to {:e} alone", nearest.error)));
     }
     let exact = AGREEMENT + 2.0 * nearest.error / nearest.slope.re.abs();
@@ -141,7 +141,7 @@ fn judge_crossing(drawn: &Drawn, critical: &Critical) -> Result<f64, Verdict> {
             && surely_stable(drawn, critical.speed + exact) == Some(false);
         return if rounding { Err(Verdict::NotJudged(what)) } else { wrong(what) };
     }
-    if (critical.kind == Kind::Flutter) != (nearest.lambda.im.abs() > nearest.error) {
+    if (critical.kind == Instability::Flutter) != (nearest.lambda.im.abs() > nearest.error) {
         return wrong(format!("the eigenvalue is {}", nearest.lambda));
     }
     let shares = shares(drawn, nearest);

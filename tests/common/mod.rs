@@ -16,7 +16,7 @@ use nalgebra::Complex;
 use serde_json::Value;
 use tautline::scenario::Scenario;
 use tautline::stability::Eigenproblem;
-use tautline::{Local, Motion, Robot};
+use tautline::{LocalProblem, Motion, Robot};
 
 /// Fails unless |actual − expected| ≤ tolerance; NaN and infinity fail on either side.
 #[track_caller]
@@ -32,7 +32,7 @@ pub fn pair(robot: &Robot) -> [usize; 2] {
 }
 
 /// The crate's dense solver for the same problem.
-pub fn eigenproblem(local: &Local) -> Eigenproblem {
+pub fn eigenproblem(local: &LocalProblem) -> Eigenproblem {
     Eigenproblem::new(&local.vibration).expect("a problem")
 }
 

@@ -7,9 +7,9 @@ use crate::app::certainty::Certainty;
 use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
 use crate::app::{digits, theme};
-use crate::compute::protocol::CriticalAnswer;
+use crate::compute::protocol::SearchEnd;
 use crate::scenario::Scenario;
-use crate::stability::{Critical, Kind};
+use crate::stability::{Critical, Instability};
 
 /// What the criterion means; also the tooltip of the figure.
 const FROZEN_TIME: &str = "The critical speed of this method is where an eigenvalue of the robot, frozen at this moment \
@@ -58,7 +58,7 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>) {
     }
 }
 
-fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool) {
+fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &SearchEnd, current: bool) {
     let Facts { document, answers, settings, .. } = facts;
     let visuals = ui.visuals().clone();
     // An old figure is weak, and the line below says that it is being recomputed.
@@ -92,10 +92,10 @@ fn figures(ui: &mut Ui, facts: Facts<'_>, answer: &CriticalAnswer, current: bool
     let rate = answers.pose().and_then(|pose| pose.report.cables.get(critical.cable)).map(|c| c.length_rate);
     let moving = rate.map_or("", |rate| if rate < 0.0 { ", being reeled in" } else { ", being paid out" });
     let kind = match critical.kind {
-        Kind::Flutter => {
+        Instability::Flutter => {
             format!("Flutter at {}", settings.frequency_text(critical.frequency_hz(), certainty.frequency_hz()))
         }
-        Kind::Divergence => "Divergence (no oscillation)".into(),
+        Instability::Divergence => "Divergence (no oscillation)".into(),
     };
     ui.colored_label(shade(visuals.text_color()), format!("{kind} · cable {}{moving}", critical.cable + 1));
 
@@ -139,10 +139,10 @@ pub fn at_rest(critical: &Critical, scenario: &Scenario) -> Option<&'static str>
 }
 
 /// The pinned design's critical speed, and how far the present one is from it.
-fn difference(ui: &mut Ui, facts: Facts<'_>, answer: Option<&CriticalAnswer>) {
+fn difference(ui: &mut Ui, facts: Facts<'_>, answer: Option<&SearchEnd>) {
     let Some(pinned) = facts.pinned else { return };
     let now = answer.and_then(|answer| answer.critical.as_ref());
-    let not_known = |answer: Option<&CriticalAnswer>| answer.is_some_and(|answer| answer.failure.is_some());
+    let not_known = |answer: Option<&SearchEnd>| answer.is_some_and(|answer| answer.failure.is_some());
     let text = |critical: &Critical, certainty: Certainty| digits::certain(critical.speed, certainty.speed());
     let text = match (pinned.critical(), now) {
         _ if !pinned.is_complete() => "Pinned, being computed".into(),

@@ -12,7 +12,7 @@ use crate::app::series::Meshes;
 use crate::app::studies::Shown;
 use crate::app::theme;
 use crate::compute::protocol::Topic;
-use crate::study::convergence::{Convergence, Doubt, Extrapolation};
+use crate::study::convergence::{Convergence, Extrapolation, NoLimit};
 
 /// Draws the plot.
 pub fn ui(ui: &mut Ui, Facts { document, studies, pinned, .. }: Facts<'_>, commands: &mut Vec<Command>) {
@@ -105,12 +105,12 @@ fn error(today: usize, extrapolation: &Extrapolation) -> String {
 }
 
 /// Why there is no limit, in a sentence.
-fn reason(doubt: Doubt) -> &'static str {
+fn reason(doubt: NoLimit) -> &'static str {
     match doubt {
-        Doubt::NoneCritical => "The finest mesh has no critical speed, so there is no limit to tell.",
-        Doubt::TooFew => "Only one mesh has a critical speed, so its error cannot be told.",
-        Doubt::Changes => "Not yet converging: the finest meshes do not agree on the mode that comes first.",
-        Doubt::Unsettled => {
+        NoLimit::NoneCritical => "The finest mesh has no critical speed, so there is no limit to tell.",
+        NoLimit::TooFew => "Only one mesh has a critical speed, so its error cannot be told.",
+        NoLimit::Changes => "Not yet converging: the finest meshes do not agree on the mode that comes first.",
+        NoLimit::Unsettled => {
             "Not yet converging: from mesh to mesh the critical speed changes in no order that is known."
         }
     }
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn where_meshes_disagree_no_number_is_told() {
-        for doubt in [Doubt::Changes, Doubt::Unsettled] {
+        for doubt in [NoLimit::Changes, NoLimit::Unsettled] {
             let text = reason(doubt);
             assert!(text.starts_with("Not yet converging") && !text.contains(|c: char| c.is_ascii_digit()), "{text}");
         }

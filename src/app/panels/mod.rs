@@ -23,13 +23,13 @@ use crate::app::command::Command;
 use crate::app::meaning::Explain as _;
 use crate::app::round::round_step;
 use crate::app::studies::{Shown, Stage, Studies};
-use crate::compute::protocol::{Extent, ModeChoice, PoseAnswer, Topic, Which};
+use crate::compute::protocol::{AnalysedPose, Extent, ModeChoice, Topic, Which};
 
 /// Said over what belongs to an earlier state.
 const STALE: &str = "Being recomputed: this belongs to an earlier state.";
 
 /// The newest pose with its modes; where there are none, that and why.
-fn with_modes<'a>(ui: &mut Ui, answers: &'a Answers) -> Option<&'a PoseAnswer> {
+fn with_modes<'a>(ui: &mut Ui, answers: &'a Answers) -> Option<&'a AnalysedPose> {
     let pose = answers.pose().filter(|pose| !pose.modes.is_empty());
     if pose.is_none() {
         ui.weak("No eigenvalues at this pose.");

@@ -175,7 +175,7 @@ fn stretch(along: &Along, [from, to]: [f64; 2]) -> String {
 mod tests {
     use super::super::Abscissa;
     use super::*;
-    use crate::stability::{Critical, Kind};
+    use crate::stability::{Critical, Instability};
     use crate::study::Verdict;
     use nalgebra::Complex;
     use std::f64::consts::TAU;
@@ -198,7 +198,7 @@ mod tests {
     }
 
     fn critical(speed: f64, frequency_hz: f64, cable: usize) -> Critical {
-        Critical { speed, eigenvalue: Complex::new(0.0, frequency_hz * TAU), kind: Kind::Flutter, cable }
+        Critical { speed, eigenvalue: Complex::new(0.0, frequency_hz * TAU), kind: Instability::Flutter, cable }
     }
 
     /// A line of some modes, each smooth, with gaps, on a robot of some size.

@@ -303,12 +303,12 @@ mod tests {
     use crate::app::studies::Wish;
     use crate::robot::Vec2;
     use crate::scenario::{Scenario, presets};
-    use crate::stability::Kind;
+    use crate::stability::Instability;
     use crate::study::Line;
 
     fn critical(speed: f64, frequency_hz: f64) -> Answer {
         let eigenvalue = Complex::new(0.0, frequency_hz * TAU);
-        let critical = Critical { speed, eigenvalue, kind: Kind::Flutter, cable: 3 };
+        let critical = Critical { speed, eigenvalue, kind: Instability::Flutter, cable: 3 };
         Answer::Critical { direction: Vec2::x(), verdict: Verdict::Critical(critical), wave_limit: None }
     }
 

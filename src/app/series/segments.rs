@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::stability::Kind;
+use crate::stability::Instability;
 
 /// What is known at one place of a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +12,7 @@ pub struct Sample {
     /// What is drawn there, of one quantity or of two.
     pub values: [f64; 2],
     /// How stability is lost and the responsible cable, where it is about that.
-    pub mode: Option<(Kind, usize)>,
+    pub mode: Option<(Instability, usize)>,
 }
 
 /// A step is a jump where it is this many times what steps near it are usually like, and this part of the whole range
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     fn sample(at: f64, value: f64) -> Sample {
-        Sample { at, values: [value, 0.0], mode: Some((Kind::Flutter, 4)) }
+        Sample { at, values: [value, 0.0], mode: Some((Instability::Flutter, 4)) }
     }
 
     fn curve(points: usize, value: impl Fn(f64) -> f64) -> Vec<Option<Sample>> {
@@ -114,10 +114,10 @@ mod tests {
     fn another_cable_or_kind_and_gaps_break_a_curve() {
         let mut samples = curve(21, |x| x);
         for sample in samples.iter_mut().skip(8).flatten() {
-            sample.mode = Some((Kind::Flutter, 3));
+            sample.mode = Some((Instability::Flutter, 3));
         }
         for sample in samples.iter_mut().skip(12).flatten() {
-            sample.mode = Some((Kind::Divergence, 3));
+            sample.mode = Some((Instability::Divergence, 3));
         }
         samples[16] = None;
         assert_eq!(segments(&samples), [0..8, 8..12, 12..16, 17..21]);

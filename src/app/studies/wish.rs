@@ -6,7 +6,7 @@ use crate::robot::Robot;
 use crate::scenario::Scenario;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::scenario::v1::Motion;
-use crate::study::{Asked, Directions, Grid, Line, Study, workspace};
+use crate::study::{Directions, Grid, Line, Mapped, Study, workspace};
 
 /// About how many intervals a map has; spread so that they are as wide as they are high.
 const MAP_INTERVALS: f64 = 800.0;
@@ -86,11 +86,11 @@ pub fn wanted(
         let [nx, ny] = map_points(&robot);
         let directions =
             if state.map.worst { Directions::Worst(Directions::WORST_OF) } else { Directions::One(direction) };
-        let asked = match state.map.quantity {
-            MapQuantity::Growth => Asked::Growth { speed: motion.speed() },
-            _ => Asked::Critical { limit },
+        let mapped = match state.map.quantity {
+            MapQuantity::Growth => Mapped::Growth { speed: motion.speed() },
+            _ => Mapped::Critical { limit },
         };
-        wishes.push(Wish::new(scenario, Study::Map { grid: Grid::of(&robot, nx, ny), directions, asked }));
+        wishes.push(Wish::new(scenario, Study::Map { grid: Grid::of(&robot, nx, ny), directions, mapped }));
     }
     let meshes = match plot {
         Some(Plot::Mesh) => Some(meshes(scenario.elements_per_cable)),

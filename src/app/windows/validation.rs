@@ -5,8 +5,8 @@ use eframe::egui::{Button, Grid, Label, RichText, Ui};
 use crate::app::command::Command;
 use crate::app::meaning::Explain as _;
 use crate::app::theme;
-use crate::compute::protocol::CheckAnswer;
-use crate::study::validation::Outcome;
+use crate::compute::protocol::CheckResult;
+use crate::study::validation::Comparison;
 
 /// On a screen with less width, in points, the numbers of a check go below its name.
 const NARROW: f32 = 760.0;
@@ -15,14 +15,14 @@ const NARROW: f32 = 760.0;
 #[derive(Debug, Default)]
 pub struct Run {
     /// Of the first ones, in their order.
-    answers: Vec<CheckAnswer>,
+    answers: Vec<CheckResult>,
     /// The next one has been asked for.
     asked: bool,
 }
 
 impl Run {
     /// Takes an answer in, unless an earlier run has asked for it.
-    pub fn take(&mut self, answer: CheckAnswer) {
+    pub fn take(&mut self, answer: CheckResult) {
         if answer.index == self.answers.len() {
             self.answers.push(answer);
             self.asked = false;
@@ -63,8 +63,8 @@ impl Run {
     }
 }
 
-fn passes(answer: &CheckAnswer) -> bool {
-    answer.outcome.as_ref().is_ok_and(Outcome::passes)
+fn passes(answer: &CheckResult) -> bool {
+    answer.comparison.as_ref().is_ok_and(Comparison::passes)
 }
 
 /// Draws the checks, and asks for the next one.
@@ -108,11 +108,11 @@ fn wide(ui: &mut Ui, run: &Run) {
                 ui.set_width(230.0);
                 name(ui, answer);
             });
-            if let Ok(outcome) = answer.outcome {
-                let [expected, got] = values(&answer.unit, outcome);
+            if let Ok(comparison) = answer.comparison {
+                let [expected, got] = values(&answer.unit, comparison);
                 ui.label(expected);
                 ui.label(got);
-                ui.label(difference(outcome));
+                ui.label(difference(comparison));
             } else {
                 (0..3).for_each(|_| drop(ui.label("–")));
             }
@@ -125,10 +125,12 @@ fn wide(ui: &mut Ui, run: &Run) {
 fn narrow(ui: &mut Ui, run: &Run) {
     for answer in &run.answers {
         name(ui, answer);
-        if let Ok(outcome) = answer.outcome {
-            let [expected, got] = values(&answer.unit, outcome);
+        if let Ok(comparison) = answer.comparison {
+            let [expected, got] = values(&answer.unit, comparison);
             Grid::new(&answer.name).num_columns(2).spacing([12.0, 2.0]).show(ui, |ui| {
-                for (title, value) in [("Expected", expected), ("Got", got), ("Error (allowed)", difference(outcome))] {
+                for (title, value) in
+                    [("Expected", expected), ("Got", got), ("Error (allowed)", difference(comparison))]
+                {
                     ui.weak(title);
                     ui.label(value);
                     ui.end_row();
@@ -140,30 +142,30 @@ fn narrow(ui: &mut Ui, run: &Run) {
     }
 }
 
-fn name(ui: &mut Ui, answer: &CheckAnswer) {
+fn name(ui: &mut Ui, answer: &CheckResult) {
     ui.add(Label::new(&answer.name).wrap());
     ui.add(Label::new(RichText::new(&answer.source).weak().size(11.0)).wrap());
 }
 
 /// Expected and computed value, with as many digits as the tolerance gives a meaning to, and one more.
-fn values(unit: &str, outcome: Outcome) -> [String; 2] {
+fn values(unit: &str, comparison: Comparison) -> [String; 2] {
     // Of a tolerance that is no positive number the conversion makes 0 digits.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let decimals = ((1.0 - outcome.tolerance.log10().floor()) as usize).min(13);
-    [outcome.expected, outcome.got].map(|value| format!("{value:.decimals$} {unit}").trim_end().to_owned())
+    let decimals = ((1.0 - comparison.tolerance.log10().floor()) as usize).min(13);
+    [comparison.expected, comparison.got].map(|value| format!("{value:.decimals$} {unit}").trim_end().to_owned())
 }
 
-fn difference(outcome: Outcome) -> String {
-    let error = outcome.error();
+fn difference(comparison: Comparison) -> String {
+    let error = comparison.error();
     // Nothing to write with an exponent.
     let error = if error == 0.0 { "0".to_owned() } else { format!("{error:.1e}") };
-    format!("{error} ({:.1e})", outcome.tolerance)
+    format!("{error} ({:.1e})", comparison.tolerance)
 }
 
-fn verdict(ui: &mut Ui, answer: &CheckAnswer) {
+fn verdict(ui: &mut Ui, answer: &CheckResult) {
     let (calm, warning) = (theme::calm(ui.visuals()), theme::warning(ui.visuals()));
-    match &answer.outcome {
-        Ok(outcome) if outcome.passes() => ui.colored_label(calm, "passes"),
+    match &answer.comparison {
+        Ok(comparison) if comparison.passes() => ui.colored_label(calm, "passes"),
         Ok(_) => ui.colored_label(warning, "▲ fails"),
         Err(reason) => ui.colored_label(warning, format!("▲ fails: {reason}")),
     };
@@ -173,23 +175,23 @@ fn verdict(ui: &mut Ui, answer: &CheckAnswer) {
 mod tests {
     use super::*;
 
-    const GOOD: Outcome = Outcome { expected: 1.0, got: 1.0004, tolerance: 1e-3 };
+    const GOOD: Comparison = Comparison { expected: 1.0, got: 1.0004, tolerance: 1e-3 };
     const COUNT: usize = 4;
 
-    fn answer(index: usize, outcome: Result<Outcome, String>) -> CheckAnswer {
+    fn answer(index: usize, comparison: Result<Comparison, String>) -> CheckResult {
         let (name, source, unit) = ("a length".into(), "closed form".into(), "m".into());
-        CheckAnswer { index, count: COUNT, name, source, unit, outcome }
+        CheckResult { index, count: COUNT, name, source, unit, comparison }
     }
 
-    fn take_all(outcomes: [Result<Outcome, String>; COUNT]) -> Run {
+    fn take_all(comparisons: [Result<Comparison, String>; COUNT]) -> Run {
         let mut run = Run::default();
-        for (index, outcome) in outcomes.into_iter().enumerate() {
+        for (index, comparison) in comparisons.into_iter().enumerate() {
             let mut commands = Vec::new();
             run.step(&mut commands);
             run.step(&mut commands);
             assert!(matches!(commands[..], [Command::Check(asked)] if asked == index), "{commands:?}");
             assert_eq!(run.summary(), format!("Computing: {index} are done."));
-            run.take(answer(index, outcome));
+            run.take(answer(index, comparison));
         }
         let mut commands = Vec::new();
         run.step(&mut commands);
@@ -201,7 +203,7 @@ mod tests {
     fn the_summary_counts_what_passes_and_waits_for_all() {
         let good = || Ok(GOOD);
         assert_eq!(take_all([good(), good(), good(), good()]).summary(), "4 of 4 checks pass.");
-        let wrong = |got: f64| Ok(Outcome { got, ..GOOD });
+        let wrong = |got: f64| Ok(Comparison { got, ..GOOD });
         let run = take_all([wrong(2.0), Err("There is no mode.".into()), wrong(f64::NAN), good()]);
         assert_eq!(run.summary(), "1 of 4 checks pass.");
     }
@@ -216,9 +218,9 @@ mod tests {
     #[test]
     fn values_have_the_digits_that_count() {
         assert_eq!(values("m/s", GOOD), ["1.0000 m/s", "1.0004 m/s"]);
-        assert_eq!(values("", Outcome { tolerance: 0.5, ..GOOD }), ["1.00", "1.00"]);
+        assert_eq!(values("", Comparison { tolerance: 0.5, ..GOOD }), ["1.00", "1.00"]);
         for tolerance in [f64::NAN, 0.0, 1e-300, f64::INFINITY] {
-            assert!(values("", Outcome { tolerance, ..GOOD })[0].len() < 20);
+            assert!(values("", Comparison { tolerance, ..GOOD })[0].len() < 20);
         }
     }
 }

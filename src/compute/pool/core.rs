@@ -4,14 +4,14 @@ use web_time::Instant;
 
 use super::platform::Crew;
 use super::scheduler::{Action, Scheduler, WorkerId};
-use crate::compute::protocol::BatchAnswer;
+use crate::compute::protocol::AnsweredBatch;
 
 /// What is heard of a worker.
 pub enum Event {
     /// It can take tasks.
     Ready,
     /// It has answered a batch.
-    Answered(BatchAnswer),
+    Answered(AnsweredBatch),
     /// It is no more, with the reason.
     Lost(String),
 }

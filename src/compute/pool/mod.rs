@@ -1,9 +1,8 @@
 //! Studies shared out among workers: web workers in the browser, threads on the desktop, behind one interface.
 //!
 //! The `scheduler` decides; `native` and `web` carry its tasks to workers and their answers back, and do so as soon as
-//! an answer comes, not only when the interface draws. A worker's half is the `bench`.
+//! an answer comes, not only when the interface draws. A worker's half is the `pool_worker`.
 
-mod bench;
 mod core;
 #[cfg(not(target_arch = "wasm32"))]
 #[path = "native.rs"]
@@ -11,14 +10,15 @@ mod platform;
 #[cfg(target_arch = "wasm32")]
 #[path = "web.rs"]
 mod platform;
+mod pool_worker;
 mod scheduler;
 mod study;
 #[cfg(test)]
 mod tests;
 
-pub use bench::Bench;
+pub use pool_worker::PoolWorker;
 
-use self::platform::Shared;
+use self::platform::SharedCore;
 use crate::compute::protocol::{StudyJob, StudyNews, Topic};
 
 /// More workers than this gain little and cost memory.
@@ -26,14 +26,14 @@ const MOST: usize = 8;
 
 /// Workers that answer studies, seen from the interface.
 pub struct Pool {
-    shared: Shared,
+    shared: SharedCore,
 }
 
 impl Pool {
     /// A pool without workers; they start once there is work, or by [`Self::prepare`]. `wake` is called whenever there is news to poll for, on
     /// the desktop from any thread.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self { shared: Shared::new(wake) }
+        Self { shared: SharedCore::new(wake) }
     }
 
     /// Has a worker started before there is work, once nothing is held: in the browser loading one takes a while.

@@ -8,38 +8,38 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread;
 
 use super::MOST;
-use super::bench::Bench;
 use super::core::{Core, Event};
+use super::pool_worker::PoolWorker;
 use super::scheduler::{Scheduler, WorkerId};
-use crate::compute::places::Places;
 use crate::compute::protocol::Task;
+use crate::compute::robot_study::RobotStudy;
 use crate::stability::Steps;
 use crate::study::Answer;
 
 /// How a place is answered.
-type AnswerAt = dyn Fn(&Arc<Places>, usize) -> Steps<Answer> + Send + Sync;
+type AnswerAt = dyn Fn(&Arc<RobotStudy>, usize) -> Steps<Answer> + Send + Sync;
 
 /// What the interface and the threads share. A thread that has an answer gets its next places at once.
-pub struct Shared {
+pub struct SharedCore {
     core: Arc<Mutex<Core>>,
 }
 
-impl Shared {
+impl SharedCore {
     /// A pool without threads.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         let size = thread::available_parallelism().map_or(1, usize::from).min(MOST);
-        Self::by(size, wake, Places::answer)
+        Self::by(size, wake, RobotStudy::answer)
     }
 
     /// The same with up to `size` threads, each place answered by `answer`.
     pub(super) fn by(
         size: usize,
         wake: impl Fn() + Send + Sync + 'static,
-        answer: impl Fn(&Arc<Places>, usize) -> Steps<Answer> + Send + Sync + 'static,
+        answer: impl Fn(&Arc<RobotStudy>, usize) -> Steps<Answer> + Send + Sync + 'static,
     ) -> Self {
         let (wake, answer) = (Arc::new(wake), Arc::new(answer));
         let core = Arc::new_cyclic(|core| {
-            let crew = Crew { inboxes: BTreeMap::new(), report: Report { core: Weak::clone(core), wake }, answer };
+            let crew = Crew { inboxes: BTreeMap::new(), report: Messenger { core: Weak::clone(core), wake }, answer };
             // No thread vanishes without a word.
             Mutex::new(Core::new(Scheduler::new(size, false), crew))
         });
@@ -59,12 +59,12 @@ fn lock(core: &Mutex<Core>) -> MutexGuard<'_, Core> {
 
 /// Where threads tell what becomes of them.
 #[derive(Clone)]
-struct Report {
+struct Messenger {
     core: Weak<Mutex<Core>>,
     wake: Arc<dyn Fn() + Send + Sync>,
 }
 
-impl Report {
+impl Messenger {
     fn tell(&self, worker: WorkerId, event: Event) {
         // Without a pool nobody wants to know.
         let Some(core) = self.core.upgrade() else { return };
@@ -80,7 +80,7 @@ impl Report {
 pub struct Crew {
     /// A thread ends when its inbox is dropped.
     inboxes: BTreeMap<WorkerId, Sender<Task>>,
-    report: Report,
+    report: Messenger,
     answer: Arc<AnswerAt>,
 }
 
@@ -121,20 +121,20 @@ impl Crew {
 }
 
 /// Runs until the other side is dropped.
-fn serve(worker: WorkerId, tasks: &Receiver<Task>, report: &Report, answer: Arc<AnswerAt>) {
-    let mut bench = Bench::by(answer);
+fn serve(worker: WorkerId, tasks: &Receiver<Task>, report: &Messenger, answer: Arc<AnswerAt>) {
+    let mut pool_worker = PoolWorker::by(answer);
     while let Ok(task) = tasks.recv() {
-        bench.submit(task);
+        pool_worker.submit(task);
         loop {
             match tasks.try_recv() {
                 Ok(newer) => {
-                    bench.submit(newer);
+                    pool_worker.submit(newer);
                     continue;
                 }
                 Err(TryRecvError::Empty) => {}
                 Err(TryRecvError::Disconnected) => return,
             }
-            let Some(answered) = bench.work() else { break };
+            let Some(answered) = pool_worker.work() else { break };
             if let Some(batch) = answered {
                 report.tell(worker, Event::Answered(batch));
             }

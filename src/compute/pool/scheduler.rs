@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
-use super::study::{AtWork, Handed};
-use crate::compute::protocol::{Batch, BatchAnswer, StudyJob, StudyNews, Task, Topic};
+use super::study::{RunningStudy, SentBatch};
+use crate::compute::protocol::{AnsweredBatch, Batch, StudyJob, StudyNews, Task, Topic};
 use crate::study::Answer;
 
 /// Names a worker; none comes twice.
@@ -40,7 +40,7 @@ pub struct Scheduler {
     held: bool,
     /// Whether a worker is to be there before there is work.
     prepared: bool,
-    studies: BTreeMap<Topic, AtWork>,
+    studies: BTreeMap<Topic, RunningStudy>,
     /// What a place of weight 1 took of late, in s.
     rates: BTreeMap<Topic, f64>,
     workers: BTreeMap<WorkerId, Worker>,
@@ -68,7 +68,7 @@ struct Worker {
     /// Of which studies it has been told.
     told: BTreeMap<Topic, u64>,
     /// What it has been given, answered in this order.
-    batches: VecDeque<Handed>,
+    batches: VecDeque<SentBatch>,
 }
 
 impl Scheduler {
@@ -106,7 +106,7 @@ impl Scheduler {
         self.cancel(topic);
         self.failures = 0;
         self.generation += 1;
-        match AtWork::new(job, self.generation) {
+        match RunningStudy::new(job, self.generation) {
             Ok(study) => {
                 self.studies.insert(topic, study);
                 self.finish(topic);
@@ -175,7 +175,7 @@ impl Scheduler {
     }
 
     /// A worker has answered the first of its batches.
-    pub fn answered(&mut self, id: WorkerId, BatchAnswer { answers, seconds }: BatchAnswer) {
+    pub fn answered(&mut self, id: WorkerId, AnsweredBatch { answers, seconds }: AnsweredBatch) {
         // One that was taken for lost may answer all the same: too late.
         let Some(worker) = self.workers.get_mut(&id) else { return };
         worker.since = self.now;
@@ -303,7 +303,7 @@ impl Scheduler {
     /// As many as there is work for, and the one that is to be there before.
     fn start_workers(&mut self, actions: &mut Vec<Action>) {
         let first = usize::from(self.prepared && self.workers.is_empty());
-        let waiting = self.studies.values().map(AtWork::waiting).sum::<usize>().max(first);
+        let waiting = self.studies.values().map(RunningStudy::waiting).sum::<usize>().max(first);
         let mut starting = self.workers.values().filter(|worker| !worker.ready).count();
         while self.workers.len() < self.size && starting < waiting && self.failures < MOST_FAILURES {
             self.last_worker += 1;
@@ -316,7 +316,7 @@ impl Scheduler {
 }
 
 /// The study whose turn it is.
-fn next(studies: &mut BTreeMap<Topic, AtWork>, workers: usize) -> Option<(Topic, &mut AtWork)> {
+fn next(studies: &mut BTreeMap<Topic, RunningStudy>, workers: usize) -> Option<(Topic, &mut RunningStudy)> {
     let waiting =
         studies.iter_mut().filter_map(|(topic, study)| Some((study.level(workers)?, study.turn, *topic, study)));
     let (.., topic, study) = waiting.min_by_key(|(level, turn, topic, _)| (*level, *turn, *topic))?;

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 
-use crate::compute::places::Places;
 use crate::compute::protocol::{StudyJob, Topic};
+use crate::compute::robot_study::RobotStudy;
 use crate::study::Answer;
 
 /// A batch is about so much work, in s: holding and cancelling act after one or two of them.
@@ -24,7 +24,7 @@ const MOST_PATIENCE: f64 = 60.0;
 const MOST_LOSSES: i32 = 3;
 
 /// A study at work. Inside, places go by their rank in the study's order.
-pub struct AtWork {
+pub struct RunningStudy {
     /// Names it.
     pub generation: u64,
     /// What was wanted.
@@ -33,7 +33,7 @@ pub struct AtWork {
     pub turn: u64,
     /// How many places are answered.
     pub answered: usize,
-    places: Places,
+    places: RobotStudy,
     order: Vec<usize>,
     waiting: BTreeSet<usize>,
     /// Workers lost by a place.
@@ -45,7 +45,7 @@ pub struct AtWork {
 }
 
 /// A batch on its way.
-pub struct Handed {
+pub struct SentBatch {
     /// Of which study.
     pub topic: Topic,
     /// Of which study.
@@ -58,13 +58,13 @@ pub struct Handed {
     pub patience: Duration,
 }
 
-impl AtWork {
+impl RunningStudy {
     /// The study that `job` wants, no place answered.
     ///
     /// # Errors
-    /// See [`Places::new`].
+    /// See [`RobotStudy::new`].
     pub fn new(job: StudyJob, generation: u64) -> Result<Self, String> {
-        let places = Places::new(&job)?;
+        let places = RobotStudy::new(&job)?;
         let order = places.order();
         Ok(Self {
             generation,
@@ -101,7 +101,7 @@ impl AtWork {
     }
 
     /// The next places, where one of weight 1 takes about `rate` s.
-    pub fn take(&mut self, rate: f64) -> Handed {
+    pub fn take(&mut self, rate: f64) -> SentBatch {
         let mut ranks = Vec::new();
         let (mut estimate, mut heaviest, mut losses) = (0.0, 0.0_f64, 0);
         while let Some(&rank) = self.waiting.first() {
@@ -120,7 +120,7 @@ impl AtWork {
         let by_nature = (PATIENCE * heaviest).clamp(PATIENCE, MOST_PATIENCE);
         let patience =
             if self.slowest > 0.0 { (SLOWEST * self.slowest * heaviest).clamp(PATIENCE, by_nature) } else { by_nature };
-        Handed {
+        SentBatch {
             topic: Topic::of(&self.job.study),
             generation: self.generation,
             ranks,
@@ -130,13 +130,13 @@ impl AtWork {
     }
 
     /// The numbers of the batch's places.
-    pub fn places(&self, batch: &Handed) -> Vec<usize> {
+    pub fn places(&self, batch: &SentBatch) -> Vec<usize> {
         batch.ranks.iter().map(|&rank| self.order[rank]).collect()
     }
 
     /// Takes in the answers to a batch, which took so many seconds; gives what a place of weight 1 took, in s. What is
     /// not answered waits again. `None` where these are no answers to the batch; then nothing has changed.
-    pub fn answer(&mut self, batch: &Handed, answers: &[(usize, Answer)], seconds: f64) -> Option<f64> {
+    pub fn answer(&mut self, batch: &SentBatch, answers: &[(usize, Answer)], seconds: f64) -> Option<f64> {
         let (done, left) = batch.ranks.split_at_checked(answers.len())?;
         let fits = answers.iter().zip(done).all(|((place, _), &rank)| self.order[rank] == *place);
         if answers.is_empty() || !fits {
@@ -153,7 +153,7 @@ impl AtWork {
 
     /// Takes back a batch whose worker is lost, whether the worker had `begun` it or not. Gives answers in the place of
     /// those that have lost too many workers.
-    pub fn give_back(&mut self, batch: Handed, begun: bool) -> Vec<(usize, Answer)> {
+    pub fn give_back(&mut self, batch: SentBatch, begun: bool) -> Vec<(usize, Answer)> {
         let mut given_up = Vec::new();
         for rank in batch.ranks {
             let losses = self.losses.entry(rank).or_default();

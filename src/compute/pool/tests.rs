@@ -6,13 +6,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use super::platform::Shared;
+use super::platform::SharedCore;
 use super::scheduler::{Action, Scheduler, WorkerId};
-use crate::compute::places::Places;
-use crate::compute::protocol::{Batch, BatchAnswer, Revision, StudyJob, StudyNews, Task, Topic};
+use crate::compute::protocol::{AnsweredBatch, Batch, Revision, StudyJob, StudyNews, Task, Topic};
+use crate::compute::robot_study::RobotStudy;
 use crate::robot::{Motion, Robot, Vec2};
 use crate::scenario::presets;
-use crate::study::{Answer, Asked, Directions, Grid, Line, Study, Verdict};
+use crate::study::{Answer, Directions, Grid, Line, Mapped, Study, Verdict};
 
 fn robot() -> (Robot, Motion) {
     presets::PRESETS[0].scenario().to_robot().expect("physical")
@@ -29,15 +29,15 @@ fn line(points: usize) -> Study {
 
 fn growth_map(nx: usize, ny: usize) -> Study {
     let (robot, motion) = robot();
-    let asked = Asked::Growth { speed: motion.speed() };
-    Study::Map { grid: Grid::of(&robot, nx, ny), directions: Directions::One(motion.direction()), asked }
+    let mapped = Mapped::Growth { speed: motion.speed() };
+    Study::Map { grid: Grid::of(&robot, nx, ny), directions: Directions::One(motion.direction()), mapped }
 }
 
 const ANSWER: Answer = Answer::Growth(Ok(-1.0));
 const UNKNOWN: Verdict = Verdict::Unknown;
 
 /// A scheduler with its clock and what its workers have been told.
-struct Stage {
+struct Rehearsal {
     scheduler: Scheduler,
     clock: Duration,
     inboxes: BTreeMap<WorkerId, Vec<Task>>,
@@ -47,7 +47,7 @@ struct Stage {
     start: bool,
 }
 
-impl Stage {
+impl Rehearsal {
     fn new(size: usize) -> Self {
         let scheduler = Scheduler::new(size, true);
         Self {
@@ -108,7 +108,7 @@ impl Stage {
             inbox.drain(..=first);
         }
         let answers = batch.places.iter().take(places).map(|&place| (place, ANSWER)).collect();
-        self.scheduler.answered(worker, BatchAnswer { answers, seconds });
+        self.scheduler.answered(worker, AnsweredBatch { answers, seconds });
         self.go_on();
     }
 
@@ -149,54 +149,54 @@ fn check_complete(news: Vec<StudyNews>, count: usize) -> Vec<(usize, Answer)> {
 
 #[test]
 fn workers_start_when_there_is_work_and_hear_of_a_study_once() {
-    let mut stage = Stage::new(2);
-    stage.go_on();
-    assert_eq!(stage.starts, [] as [u64; 0]);
-    stage.scheduler.want(job(1, line(1)));
-    stage.go_on();
-    assert_eq!(stage.starts, [1], "one place is work for one");
-    stage.scheduler.want(job(2, line(40)));
-    stage.go_on();
+    let mut rehearsal = Rehearsal::new(2);
+    rehearsal.go_on();
+    assert_eq!(rehearsal.starts, [] as [u64; 0]);
+    rehearsal.scheduler.want(job(1, line(1)));
+    rehearsal.go_on();
+    assert_eq!(rehearsal.starts, [1], "one place is work for one");
+    rehearsal.scheduler.want(job(2, line(40)));
+    rehearsal.go_on();
     let told: usize =
-        stage.inboxes.values().flatten().filter(|task| matches!(task, Task::Study { generation: 2, .. })).count();
-    assert_eq!((stage.starts.len(), told), (2, 2));
-    stage.finish(0.002);
-    let (all, finished) = answered(stage.scheduler.take_news());
+        rehearsal.inboxes.values().flatten().filter(|task| matches!(task, Task::Study { generation: 2, .. })).count();
+    assert_eq!((rehearsal.starts.len(), told), (2, 2));
+    rehearsal.finish(0.002);
+    let (all, finished) = answered(rehearsal.scheduler.take_news());
     assert!(finished && all.len() == 40, "of the first study nothing has come");
 }
 
 #[test]
 fn a_worker_is_prepared_once_nothing_is_held() {
-    let mut stage = Stage::new(2);
-    stage.scheduler.hold(true);
-    stage.scheduler.prepare();
-    stage.go_on();
-    assert_eq!(stage.starts, [] as [u64; 0]);
-    stage.scheduler.hold(false);
-    stage.go_on();
-    stage.go_on();
-    assert_eq!(stage.starts, [1], "one, and no more of them without work");
-    stage.scheduler.want(job(1, line(1)));
-    stage.go_on();
-    assert_eq!(stage.starts, [1]);
+    let mut rehearsal = Rehearsal::new(2);
+    rehearsal.scheduler.hold(true);
+    rehearsal.scheduler.prepare();
+    rehearsal.go_on();
+    assert_eq!(rehearsal.starts, [] as [u64; 0]);
+    rehearsal.scheduler.hold(false);
+    rehearsal.go_on();
+    rehearsal.go_on();
+    assert_eq!(rehearsal.starts, [1], "one, and no more of them without work");
+    rehearsal.scheduler.want(job(1, line(1)));
+    rehearsal.go_on();
+    assert_eq!(rehearsal.starts, [1]);
 }
 
 #[test]
 fn batches_are_as_long_as_their_time_and_what_is_left_over_comes_first() {
-    let mut stage = Stage::new(1);
-    stage.scheduler.want(job(1, line(400)));
-    stage.go_on();
+    let mut rehearsal = Rehearsal::new(1);
+    rehearsal.scheduler.want(job(1, line(400)));
+    rehearsal.go_on();
     for _ in 0..12 {
-        let count = stage.at(1).expect("a batch").places.len();
-        stage.answer(1, count, 0.000_5 * count as f64);
+        let count = rehearsal.at(1).expect("a batch").places.len();
+        rehearsal.answer(1, count, 0.000_5 * count as f64);
     }
-    let batch = stage.at(1).expect("a batch");
+    let batch = rehearsal.at(1).expect("a batch");
     assert!((15..=22).contains(&batch.places.len()), "{} places for 10 ms of 0.5 ms each", batch.places.len());
     // Suddenly slow: the worker stops after one place, and the others are the next ones but those sent ahead.
-    stage.answer(1, 1, 0.030);
-    stage.finish(0.030);
+    rehearsal.answer(1, 1, 0.030);
+    rehearsal.finish(0.030);
     let batch_left: Vec<usize> = batch.places[1..].to_vec();
-    let all = answered(stage.scheduler.take_news()).0;
+    let all = answered(rehearsal.scheduler.take_news()).0;
     let at = |place: usize| all.iter().position(|(other, _)| *other == place).expect("an answer");
     let last_left = batch_left.iter().map(|&place| at(place)).max().expect("places left");
     assert!(last_left <= at(batch.places[0]) + 64 + batch_left.len());
@@ -205,15 +205,15 @@ fn batches_are_as_long_as_their_time_and_what_is_left_over_comes_first() {
 
 #[test]
 fn a_maps_first_picture_comes_first_then_small_studies_then_its_details() {
-    let mut stage = Stage::new(1);
+    let mut rehearsal = Rehearsal::new(1);
     let (position, direction) = (Vec2::zeros(), Vec2::x());
     let small = [line(30), Study::Speeds { position, direction, to: 10.0, count: 30 }];
-    stage.scheduler.want(job(1, growth_map(41, 21)));
+    rehearsal.scheduler.want(job(1, growth_map(41, 21)));
     for study in small {
-        stage.scheduler.want(job(1, study));
+        rehearsal.scheduler.want(job(1, study));
     }
-    stage.go_on();
-    let order: Vec<(Topic, usize)> = stage
+    rehearsal.go_on();
+    let order: Vec<(Topic, usize)> = rehearsal
         .finish(0.001)
         .into_iter()
         .flat_map(|batch| batch.places.into_iter().map(move |p| (batch.topic, p)))
@@ -227,7 +227,7 @@ fn a_maps_first_picture_comes_first_then_small_studies_then_its_details() {
     let changes = between.windows(2).filter(|pair| pair[0] != pair[1]).count();
     assert!(changes >= 3, "they take turns");
     check_complete(
-        stage
+        rehearsal
             .scheduler
             .take_news()
             .into_iter()
@@ -242,94 +242,94 @@ fn a_maps_first_picture_comes_first_then_small_studies_then_its_details() {
 
 #[test]
 fn a_first_picture_that_takes_long_gives_way_to_small_studies() {
-    let mut stage = Stage::new(1);
-    stage.scheduler.want(job(1, growth_map(41, 21)));
-    stage.scheduler.want(job(1, line(3)));
-    stage.go_on();
-    let order: Vec<Topic> = stage.finish(0.1).iter().map(|batch| batch.topic).collect();
+    let mut rehearsal = Rehearsal::new(1);
+    rehearsal.scheduler.want(job(1, growth_map(41, 21)));
+    rehearsal.scheduler.want(job(1, line(3)));
+    rehearsal.go_on();
+    let order: Vec<Topic> = rehearsal.finish(0.1).iter().map(|batch| batch.topic).collect();
     let last_line = order.iter().rposition(|topic| *topic == Topic::Line).expect("a line");
     assert!(last_line < 12, "{order:?}");
 }
 
 #[test]
 fn a_worker_that_dies_is_replaced_and_its_places_are_done_again() {
-    let mut stage = Stage::new(2);
-    stage.scheduler.want(job(1, line(20)));
-    stage.go_on();
-    let (begun, other) = (stage.at(1).expect("a batch"), stage.at(2).expect("a batch"));
-    stage.scheduler.lost(1, "unreachable".into());
-    stage.go_on();
-    assert_eq!((stage.starts.clone(), stage.stopped.clone()), (vec![1, 2, 3], vec![1]));
+    let mut rehearsal = Rehearsal::new(2);
+    rehearsal.scheduler.want(job(1, line(20)));
+    rehearsal.go_on();
+    let (begun, other) = (rehearsal.at(1).expect("a batch"), rehearsal.at(2).expect("a batch"));
+    rehearsal.scheduler.lost(1, "unreachable".into());
+    rehearsal.go_on();
+    assert_eq!((rehearsal.starts.clone(), rehearsal.stopped.clone()), (vec![1, 2, 3], vec![1]));
     // What may have killed it goes alone.
-    assert_eq!(stage.at(3).expect("a batch").places, begun.places[..1]);
+    assert_eq!(rehearsal.at(3).expect("a batch").places, begun.places[..1]);
     assert_ne!(begun.places, other.places);
     // An answer that comes too late counts for nothing.
     let answers = begun.places.iter().map(|&place| (place, ANSWER)).collect();
-    stage.scheduler.answered(1, BatchAnswer { answers, seconds: 0.01 });
-    stage.finish(0.002);
-    check_complete(stage.scheduler.take_news(), 20);
+    rehearsal.scheduler.answered(1, AnsweredBatch { answers, seconds: 0.01 });
+    rehearsal.finish(0.002);
+    check_complete(rehearsal.scheduler.take_news(), 20);
 }
 
 #[test]
 fn a_silent_worker_is_lost_after_some_seconds_and_a_slow_place_gets_more() {
-    let mut stage = Stage::new(1);
-    stage.scheduler.want(job(1, line(3)));
-    stage.go_on();
-    let first = stage.at(1).expect("a batch").places[0];
-    stage.pass(3.9);
-    assert_eq!(stage.stopped, [] as [u64; 0]);
-    stage.pass(0.2);
-    assert_eq!(stage.stopped, [1], "lost after 4 s");
-    assert_eq!(stage.at(2).expect("a batch").places, [first]);
-    stage.pass(3.9);
-    stage.pass(3.9);
-    assert_eq!(stage.stopped, [1], "twice the time for the second attempt");
-    stage.answer(2, 1, 7.8);
+    let mut rehearsal = Rehearsal::new(1);
+    rehearsal.scheduler.want(job(1, line(3)));
+    rehearsal.go_on();
+    let first = rehearsal.at(1).expect("a batch").places[0];
+    rehearsal.pass(3.9);
+    assert_eq!(rehearsal.stopped, [] as [u64; 0]);
+    rehearsal.pass(0.2);
+    assert_eq!(rehearsal.stopped, [1], "lost after 4 s");
+    assert_eq!(rehearsal.at(2).expect("a batch").places, [first]);
+    rehearsal.pass(3.9);
+    rehearsal.pass(3.9);
+    assert_eq!(rehearsal.stopped, [1], "twice the time for the second attempt");
+    rehearsal.answer(2, 1, 7.8);
     // What is slow has taught patience.
-    stage.pass(3.9);
-    stage.pass(3.9);
-    stage.finish(0.002);
-    assert_eq!(stage.stopped.len(), 1 + usize::from(stage.starts.len() > 2));
-    check_complete(stage.scheduler.take_news(), 3);
+    rehearsal.pass(3.9);
+    rehearsal.pass(3.9);
+    rehearsal.finish(0.002);
+    assert_eq!(rehearsal.stopped.len(), 1 + usize::from(rehearsal.starts.len() > 2));
+    check_complete(rehearsal.scheduler.take_news(), 3);
 }
 
 #[test]
 fn heavy_places_get_more_time_and_time_asleep_does_not_count() {
-    let mut stage = Stage::new(1);
+    let mut rehearsal = Rehearsal::new(1);
     let (position, direction) = (Vec2::zeros(), Vec2::x());
-    stage.scheduler.want(job(1, Study::Elements { position, direction, counts: vec![40], limit: 40.0 }));
-    stage.go_on();
+    rehearsal.scheduler.want(job(1, Study::Elements { position, direction, counts: vec![40], limit: 40.0 }));
+    rehearsal.go_on();
     for _ in 0..10 {
-        stage.pass(4.0);
+        rehearsal.pass(4.0);
     }
-    assert_eq!(stage.stopped, [] as [u64; 0], "16 times the paper's work");
-    stage.finish(30.0);
-    stage.scheduler.want(job(2, line(1)));
-    stage.go_on();
-    stage.clock += Duration::from_hours(1);
-    stage.go_on();
-    assert_eq!(stage.stopped, [] as [u64; 0]);
-    stage.finish(0.002);
+    assert_eq!(rehearsal.stopped, [] as [u64; 0], "16 times the paper's work");
+    rehearsal.finish(30.0);
+    rehearsal.scheduler.want(job(2, line(1)));
+    rehearsal.go_on();
+    rehearsal.clock += Duration::from_hours(1);
+    rehearsal.go_on();
+    assert_eq!(rehearsal.stopped, [] as [u64; 0]);
+    rehearsal.finish(0.002);
 }
 
 #[test]
 fn a_place_that_kills_three_workers_is_given_up_alone() {
-    let mut stage = Stage::new(1);
-    stage.scheduler.want(job(1, line(10)));
-    stage.go_on();
+    let mut rehearsal = Rehearsal::new(1);
+    rehearsal.scheduler.want(job(1, line(10)));
+    rehearsal.go_on();
     let deadly = 8;
     let mut dead = 0;
-    while let Some((&worker, batch)) = stage.inboxes.keys().find_map(|w| Some((w, stage.at(*w)?))) {
+    while let Some((&worker, batch)) = rehearsal.inboxes.keys().find_map(|w| Some((w, rehearsal.at(*w)?))) {
         if batch.places.contains(&deadly) {
             dead += 1;
-            stage.scheduler.lost(worker, "unreachable".into());
-            stage.go_on();
+            rehearsal.scheduler.lost(worker, "unreachable".into());
+            rehearsal.go_on();
         } else {
-            stage.answer(worker, batch.places.len(), 0.002);
+            rehearsal.answer(worker, batch.places.len(), 0.002);
         }
     }
     assert_eq!(dead, 3);
-    let all = check_complete(stage.scheduler.take_news(), 10);
+    let all = check_complete(rehearsal.scheduler.take_news(), 10);
     let direction = Vec2::x();
     for (place, answer) in all {
         let expected =
@@ -340,60 +340,60 @@ fn a_place_that_kills_three_workers_is_given_up_alone() {
 
 #[test]
 fn without_any_worker_the_studies_end_with_the_reason_until_one_is_wanted_again() {
-    let mut stage = Stage::new(2);
-    stage.start = false;
-    stage.scheduler.want(job(1, line(10)));
-    stage.go_on();
-    while let Some(worker) = stage.starts.iter().copied().find(|worker| !stage.stopped.contains(worker)) {
-        stage.scheduler.lost(worker, format!("no worker {worker}"));
-        stage.go_on();
+    let mut rehearsal = Rehearsal::new(2);
+    rehearsal.start = false;
+    rehearsal.scheduler.want(job(1, line(10)));
+    rehearsal.go_on();
+    while let Some(worker) = rehearsal.starts.iter().copied().find(|worker| !rehearsal.stopped.contains(worker)) {
+        rehearsal.scheduler.lost(worker, format!("no worker {worker}"));
+        rehearsal.go_on();
     }
-    let news = stage.scheduler.take_news();
+    let news = rehearsal.scheduler.take_news();
     assert!(matches!(&news[..], [StudyNews::Broken(reason)] if reason.starts_with("no worker")), "{news:?}");
-    assert_eq!(stage.scheduler.progress(Topic::Line), None);
-    stage.start = true;
-    stage.scheduler.want(job(2, line(10)));
-    stage.go_on();
-    stage.finish(0.002);
-    check_complete(stage.scheduler.take_news(), 10);
+    assert_eq!(rehearsal.scheduler.progress(Topic::Line), None);
+    rehearsal.start = true;
+    rehearsal.scheduler.want(job(2, line(10)));
+    rehearsal.go_on();
+    rehearsal.finish(0.002);
+    check_complete(rehearsal.scheduler.take_news(), 10);
 }
 
 #[test]
 fn a_worker_that_never_starts_is_lost_and_one_that_starts_is_enough() {
-    let mut stage = Stage::new(2);
-    stage.start = false;
-    stage.scheduler.want(job(1, line(400)));
-    stage.go_on();
-    stage.scheduler.ready(1);
-    stage.go_on();
+    let mut rehearsal = Rehearsal::new(2);
+    rehearsal.start = false;
+    rehearsal.scheduler.want(job(1, line(400)));
+    rehearsal.go_on();
+    rehearsal.scheduler.ready(1);
+    rehearsal.go_on();
     for _ in 0..40 {
-        stage.pass(2.0);
-        while let Some(batch) = stage.at(1) {
-            stage.answer(1, batch.places.len(), 0.002);
+        rehearsal.pass(2.0);
+        while let Some(batch) = rehearsal.at(1) {
+            rehearsal.answer(1, batch.places.len(), 0.002);
         }
-        stage.scheduler.want(job(1, line(400)));
-        stage.go_on();
+        rehearsal.scheduler.want(job(1, line(400)));
+        rehearsal.go_on();
     }
-    assert!(stage.stopped.len() >= 3 && !stage.stopped.contains(&1), "{:?}", stage.stopped);
-    assert!(!stage.scheduler.take_news().iter().any(|news| matches!(news, StudyNews::Broken(_))));
+    assert!(rehearsal.stopped.len() >= 3 && !rehearsal.stopped.contains(&1), "{:?}", rehearsal.stopped);
+    assert!(!rehearsal.scheduler.take_news().iter().any(|news| matches!(news, StudyNews::Broken(_))));
 }
 
 #[test]
 fn nonsense_from_a_worker_is_not_taken_for_an_answer() {
     for answers in [vec![], vec![(9999, ANSWER)], vec![(0, ANSWER); 100]] {
-        let mut stage = Stage::new(1);
-        stage.scheduler.want(job(1, line(5)));
-        stage.go_on();
-        stage.scheduler.answered(1, BatchAnswer { answers, seconds: 0.001 });
-        stage.go_on();
-        assert_eq!(stage.stopped, [1]);
-        stage.finish(0.002);
-        check_complete(stage.scheduler.take_news(), 5);
+        let mut rehearsal = Rehearsal::new(1);
+        rehearsal.scheduler.want(job(1, line(5)));
+        rehearsal.go_on();
+        rehearsal.scheduler.answered(1, AnsweredBatch { answers, seconds: 0.001 });
+        rehearsal.go_on();
+        assert_eq!(rehearsal.stopped, [1]);
+        rehearsal.finish(0.002);
+        check_complete(rehearsal.scheduler.take_news(), 5);
     }
 }
 
 /// Polls a pool until it has nothing at work.
-fn wait(shared: &Shared) -> Vec<StudyNews> {
+fn wait(shared: &SharedCore) -> Vec<StudyNews> {
     let begun = Instant::now();
     let mut news = Vec::new();
     while !matches!(news.last(), Some(StudyNews::Finished { .. } | StudyNews::Broken(_))) {
@@ -405,7 +405,7 @@ fn wait(shared: &Shared) -> Vec<StudyNews> {
 }
 
 /// A place's answer, all at once.
-fn finish(places: &Arc<Places>, place: usize) -> Answer {
+fn finish(places: &Arc<RobotStudy>, place: usize) -> Answer {
     let mut steps = places.answer(place);
     loop {
         if let Some(answer) = steps.advance() {
@@ -417,29 +417,30 @@ fn finish(places: &Arc<Places>, place: usize) -> Answer {
 /// A place may take a minute. Whoever is at one is free for what is wanted instead, or for nothing, at once.
 #[test]
 fn workers_hear_that_the_study_they_are_at_is_no_longer_wanted() {
-    let mut stage = Stage::new(2);
-    stage.scheduler.want(job(1, line(1)));
-    stage.go_on();
-    stage.scheduler.want(job(2, line(1)));
-    stage.go_on();
-    let told = |stage: &Stage, worker: WorkerId| -> Vec<&'static str> {
+    let mut rehearsal = Rehearsal::new(2);
+    rehearsal.scheduler.want(job(1, line(1)));
+    rehearsal.go_on();
+    rehearsal.scheduler.want(job(2, line(1)));
+    rehearsal.go_on();
+    let told = |rehearsal: &Rehearsal, worker: WorkerId| -> Vec<&'static str> {
         let name = |task: &Task| match task {
             Task::Study { .. } => "study",
             Task::Batch(_) => "batch",
             Task::Forget(Topic::Line) => "forget",
             Task::Forget(_) => "forget another",
         };
-        stage.inboxes.get(&worker).into_iter().flatten().map(name).collect()
+        rehearsal.inboxes.get(&worker).into_iter().flatten().map(name).collect()
     };
-    let begun = told(&stage, 1);
+    let begun = told(&rehearsal, 1);
     assert!(begun.starts_with(&["study", "batch", "forget"]), "{begun:?}");
-    stage.scheduler.cancel(Topic::Line);
-    stage.go_on();
-    let forgets = |stage: &Stage| [1, 2].map(|worker| told(stage, worker).iter().filter(|&&t| t == "forget").count());
-    assert_eq!(forgets(&stage).iter().sum::<usize>(), 2, "who was at the second study hears it too");
-    stage.scheduler.cancel(Topic::Line);
-    stage.go_on();
-    assert_eq!(forgets(&stage).iter().sum::<usize>(), 2, "once");
+    rehearsal.scheduler.cancel(Topic::Line);
+    rehearsal.go_on();
+    let forgets =
+        |rehearsal: &Rehearsal| [1, 2].map(|worker| told(rehearsal, worker).iter().filter(|&&t| t == "forget").count());
+    assert_eq!(forgets(&rehearsal).iter().sum::<usize>(), 2, "who was at the second study hears it too");
+    rehearsal.scheduler.cancel(Topic::Line);
+    rehearsal.go_on();
+    assert_eq!(forgets(&rehearsal).iter().sum::<usize>(), 2, "once");
 }
 
 #[test]
@@ -449,14 +450,14 @@ fn a_thread_that_panics_is_replaced_and_its_places_are_done_again() {
     let wake = move || {
         woken.fetch_add(1, Ordering::Relaxed);
     };
-    let answer = move |places: &Arc<Places>, place: usize| {
+    let answer = move |places: &Arc<RobotStudy>, place: usize| {
         assert!(place != 3, "this place is deadly");
         assert!(!place.is_multiple_of(5) || accidents.fetch_add(1, Ordering::Relaxed) > 1, "an accident");
         places.answer(place)
     };
-    let shared = Shared::by(2, wake, answer);
+    let shared = SharedCore::by(2, wake, answer);
     let wanted = job(1, line(12));
-    let places = Arc::new(Places::new(&wanted).expect("a study"));
+    let places = Arc::new(RobotStudy::new(&wanted).expect("a study"));
     shared.with(|core| {
         core.scheduler.want(wanted);
         core.go_on();

@@ -16,12 +16,12 @@ use crate::compute::protocol::{Incoming, Outgoing, Task};
 const BEAT: i32 = 250;
 
 /// What the page and the listeners to its workers share. A worker that has answered gets its next places at once.
-pub struct Shared {
+pub struct SharedCore {
     core: Rc<RefCell<Core>>,
     heart: Heart,
 }
 
-impl Shared {
+impl SharedCore {
     /// A pool without workers.
     pub fn new(wake: impl Fn() + 'static) -> Self {
         let cores = web_sys::window().map_or(1.0, |window| window.navigator().hardware_concurrency());
@@ -29,10 +29,10 @@ impl Shared {
         let size = (1..=MOST).rev().find(|&size| size as f64 <= cores - 1.0).unwrap_or(1);
         let wake: Rc<dyn Fn()> = Rc::new(wake);
         let core = Rc::new_cyclic(|core| {
-            let report = Report { core: Weak::clone(core), wake: wake.clone() };
+            let report = Messenger { core: Weak::clone(core), wake: wake.clone() };
             RefCell::new(Core::new(Scheduler::new(size, true), Crew { links: BTreeMap::new(), report }))
         });
-        let heart = Heart::new(Report { core: Rc::downgrade(&core), wake });
+        let heart = Heart::new(Messenger { core: Rc::downgrade(&core), wake });
         Self { core, heart }
     }
 
@@ -47,12 +47,12 @@ impl Shared {
 
 /// Where workers tell what becomes of them.
 #[derive(Clone)]
-struct Report {
+struct Messenger {
     core: Weak<RefCell<Core>>,
     wake: Rc<dyn Fn()>,
 }
 
-impl Report {
+impl Messenger {
     /// Does something with the scheduler that may give news.
     fn act(&self, act: impl FnOnce(&mut Core) -> bool) {
         let Some(core) = self.core.upgrade() else { return };
@@ -66,7 +66,7 @@ impl Report {
 /// The web workers.
 pub struct Crew {
     links: BTreeMap<WorkerId, Link>,
-    report: Report,
+    report: Messenger,
 }
 
 impl Crew {
@@ -111,7 +111,7 @@ struct Heart {
 }
 
 impl Heart {
-    fn new(report: Report) -> Self {
+    fn new(report: Messenger) -> Self {
         Self { on_beat: Closure::new(move || report.act(Core::go_on)), timer: Cell::new(None) }
     }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Failed, Outcome, limit};
+use super::{Comparison, NoComparison, limit};
 use crate::mechanics::{self, CableShape, Hub, LengthRates, Vibration};
 use crate::robot::{Cable, Damping, Linearisation, Robot, RobotSpec, Strain, TensionLaw, Vec2};
 use crate::stability::Eigenproblem;
@@ -48,7 +48,7 @@ impl Hanging {
     /// Its shape on a mesh with `tension` (N) at its lower end, and its vibrations with both ends fixed.
     ///
     /// The program knows whole robots only: two short cables on the other side hold the platform.
-    fn with_tension(&self, elements: usize, tension: f64) -> Result<(CableShape, Vibration), Failed> {
+    fn with_tension(&self, elements: usize, tension: f64) -> Result<(CableShape, Vibration), NoComparison> {
         let back = -self.span.normalize();
         let aside = Vec2::new(-back.y, back.x);
         let holding = |anchor| Cable { anchor, tension: TensionLaw::Equilibrium };
@@ -67,19 +67,20 @@ impl Hanging {
         })?;
         let statics = mechanics::solve(&robot, Vec2::zeros()).map_err(|failure| failure.reason)?;
         let at_rest = [LengthRates { first: 0.0, second: 0.0 }; 3];
-        let vibration = Vibration::new(&robot, &statics, &at_rest).ok_or(Failed::Nothing("problem"))?;
+        let vibration = Vibration::new(&robot, &statics, &at_rest).ok_or(NoComparison::Nothing("problem"))?;
         let own = vibration.chains().iter().skip(2).cloned().collect();
-        let alone = Vibration::of_cables(own, Hub::fixed(1), robot.damping, false).ok_or(Failed::Nothing("cable"))?;
-        let shape = statics.cables.into_iter().nth(2).ok_or(Failed::Nothing("third cable"))?;
+        let alone =
+            Vibration::of_cables(own, Hub::fixed(1), robot.damping, false).ok_or(NoComparison::Nothing("cable"))?;
+        let shape = statics.cables.into_iter().nth(2).ok_or(NoComparison::Nothing("third cable"))?;
         Ok((shape, alone))
     }
 
     /// The first frequency in Hz on 20 and 40 elements, with `tension` at the lower end.
-    fn first_frequencies(&self, tension: f64) -> Result<[f64; 2], Failed> {
-        let on_mesh = |n: usize| -> Result<f64, Failed> {
+    fn first_frequencies(&self, tension: f64) -> Result<[f64; 2], NoComparison> {
+        let on_mesh = |n: usize| -> Result<f64, NoComparison> {
             let (_, vibration) = self.with_tension(n, tension)?;
             let spectrum = Eigenproblem::new(&vibration)?.spectrum(0.0)?;
-            spectrum.modes().next().map(|mode| mode.frequency_hz()).ok_or(Failed::Nothing("mode"))
+            spectrum.modes().next().map(|mode| mode.frequency_hz()).ok_or(NoComparison::Nothing("mode"))
         };
         Ok([on_mesh(20)?, on_mesh(40)?])
     }
@@ -91,42 +92,42 @@ impl Case {
     }
 
     /// The cable with the closed form's tension at its lower end, on 20 and 40 elements.
-    fn shapes(&self) -> Result<[CableShape; 2], Failed> {
+    fn shapes(&self) -> Result<[CableShape; 2], NoComparison> {
         Ok([TABLE.with_tension(20, self.tension(0))?.0, TABLE.with_tension(40, self.tension(0))?.0])
     }
 }
 
 /// The length of a cable with the closed form's tension at its lower end, for ever finer meshes.
-pub fn length(case: &Case) -> Result<Outcome, Failed> {
+pub fn length(case: &Case) -> Result<Comparison, NoComparison> {
     let [coarse, fine] = case.shapes()?.map(|shape| shape.length);
     // Extrapolated, the mesh's error is of order n⁻⁴ of a slight sag, and below the digits of the closed form.
-    Ok(Outcome { expected: case.length, got: limit(coarse, fine), tolerance: DIGITS * case.length })
+    Ok(Comparison { expected: case.length, got: limit(coarse, fine), tolerance: DIGITS * case.length })
 }
 
 /// The tension at the upper end of the same.
-pub fn upper_tension(case: &Case) -> Result<Outcome, Failed> {
+pub fn upper_tension(case: &Case) -> Result<Comparison, NoComparison> {
     let [coarse, fine] = case.shapes()?.map(|shape| shape.tension_at_winch);
     let expected = case.tension(1);
-    Ok(Outcome { expected, got: limit(coarse, fine), tolerance: DIGITS * expected })
+    Ok(Comparison { expected, got: limit(coarse, fine), tolerance: DIGITS * expected })
 }
 
 /// The order at which the length's error falls with the number of elements: 2.
-pub fn order() -> Result<Outcome, Failed> {
+pub fn order() -> Result<Comparison, NoComparison> {
     let [coarse, fine] = SAGGING.shapes()?.map(|shape| shape.length - SAGGING.length);
     // With the error a/n² + b/n⁴ and b of the size of a, the order is off by (1/20² − 1/40²)/ln 2 = 0.0027 or so.
-    Ok(Outcome { expected: 2.0, got: (coarse / fine).log2(), tolerance: 0.005 })
+    Ok(Comparison { expected: 2.0, got: (coarse / fine).log2(), tolerance: 0.005 })
 }
 
 /// The first frequency of a cable with fixed ends, for ever finer meshes, with tangent stiffness.
-pub fn first_frequency(case: &Case) -> Result<Outcome, Failed> {
+pub fn first_frequency(case: &Case) -> Result<Comparison, NoComparison> {
     let [coarse, fine] = TABLE.first_frequencies(case.tension(0))?;
     // Five decimals are given, so half of 1e-5 Hz; the other half is for the n⁻⁴ that extrapolation leaves, which for a
     // string is (π/20)⁴/7680 = 8e-8 of the frequency, and 20 times that where sag couples the first with higher modes.
-    Ok(Outcome { expected: case.frequency, got: limit(coarse, fine), tolerance: 1e-5 })
+    Ok(Comparison { expected: case.frequency, got: limit(coarse, fine), tolerance: 1e-5 })
 }
 
 /// The first frequency of a shallow horizontal cable with the cable parameter λ² = 10, as Ω/π.
-pub fn shallow() -> Result<Outcome, Failed> {
+pub fn shallow() -> Result<Comparison, NoComparison> {
     const LAMBDA_SQUARED: f64 = 10.0;
     let (span, weight, slope): (f64, f64, f64) = (10.0, 4.0, 8e-3);
     // w span/H = 8 × sag/span; λ² = (w span/H)² EA/H for a shallow cable.
@@ -143,16 +144,16 @@ pub fn shallow() -> Result<Outcome, Failed> {
     let expected = first_root(LAMBDA_SQUARED)?;
     let got = 2.0 * limit(coarse, fine) * span / (horizontal / cable.mass_per_length).sqrt();
     // Shallow theory drops squares of the slope and, beside 1, the strain H/EA = slope²/λ².
-    Ok(Outcome { expected, got, tolerance: slope * slope * expected })
+    Ok(Comparison { expected, got, tolerance: slope * slope * expected })
 }
 
 /// Ω/π = 2z/π with z the root of tan z = z − (4/λ²) z³ between π/2 and 3π/2.
-fn first_root(lambda_squared: f64) -> Result<f64, Failed> {
+fn first_root(lambda_squared: f64) -> Result<f64, NoComparison> {
     // Times cos z there is no pole; it falls from sin(π/2) = 1 to where the polynomial wins.
     let f = |z: f64| z.sin() - (z - 4.0 / lambda_squared * z * z * z) * z.cos();
     let (mut low, mut high) = (0.5 * PI, 1.5 * PI);
     if f(low) * f(high) >= 0.0 {
-        return Err(Failed::Nothing("sign change"));
+        return Err(NoComparison::Nothing("sign change"));
     }
     for _ in 0..60 {
         let middle = 0.5 * (low + high);

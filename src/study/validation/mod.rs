@@ -22,13 +22,13 @@ pub struct Check {
     /// The unit of the expected and the computed value; empty for plain numbers.
     pub unit: &'static str,
     /// Computes it, within some tens of milliseconds.
-    pub run: fn() -> Result<Outcome, Failed>,
+    pub run: fn() -> Result<Comparison, NoComparison>,
 }
 
 /// What a check has come to, all in the check's unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
-pub struct Outcome {
+pub struct Comparison {
     /// From the check's source.
     pub expected: f64,
     /// Computed here.
@@ -37,7 +37,7 @@ pub struct Outcome {
     pub tolerance: f64,
 }
 
-impl Outcome {
+impl Comparison {
     /// |got − expected|.
     pub fn error(&self) -> f64 {
         (self.got - self.expected).abs()
@@ -51,7 +51,7 @@ impl Outcome {
 
 /// A check had nothing to compare with.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Failed {
+pub enum NoComparison {
     /// The robot is not physical.
     #[error("the robot of the check is refused: {0}")]
     Refused(#[from] Faults),
@@ -239,14 +239,15 @@ mod tests {
     #[test]
     fn all_checks_pass_and_would_not_with_another_expected_value() {
         for check in CHECKS {
-            let outcome = (check.run)().unwrap_or_else(|failed| panic!("{}: {failed}", check.name));
+            let comparison = (check.run)().unwrap_or_else(|failed| panic!("{}: {failed}", check.name));
 
-            assert!(outcome.passes(), "{}: {outcome:?}, off by {:e}", check.name, outcome.error());
+            assert!(comparison.passes(), "{}: {comparison:?}, off by {:e}", check.name, comparison.error());
             // What is right to a percent only would say little.
-            assert!(outcome.tolerance <= 0.01 * outcome.expected.abs(), "{}: {outcome:?}", check.name);
-            assert!(outcome.tolerance > 0.0, "{}: rounding is not zero everywhere", check.name);
+            assert!(comparison.tolerance <= 0.01 * comparison.expected.abs(), "{}: {comparison:?}", check.name);
+            assert!(comparison.tolerance > 0.0, "{}: rounding is not zero everywhere", check.name);
             for sign in [1.0, -1.0] {
-                let wrong = Outcome { expected: outcome.expected + sign * 2.01 * outcome.tolerance, ..outcome };
+                let wrong =
+                    Comparison { expected: comparison.expected + sign * 2.01 * comparison.tolerance, ..comparison };
                 assert!(!wrong.passes(), "{}: {wrong:?}", check.name);
             }
         }
@@ -254,16 +255,16 @@ mod tests {
 
     #[test]
     fn no_number_is_no_success() {
-        let good = Outcome { expected: 1.0, got: 1.0, tolerance: 0.1 };
-        assert!(good.passes() && Outcome { got: 1.1, tolerance: 0.11, ..good }.passes());
+        let good = Comparison { expected: 1.0, got: 1.0, tolerance: 0.1 };
+        assert!(good.passes() && Comparison { got: 1.1, tolerance: 0.11, ..good }.passes());
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert!(!Outcome { got: value, ..good }.passes());
-            assert!(!Outcome { expected: value, ..good }.passes());
-            assert!(!Outcome { tolerance: value, ..good }.passes());
-            assert!(!Outcome { expected: value, got: value, tolerance: value }.passes());
+            assert!(!Comparison { got: value, ..good }.passes());
+            assert!(!Comparison { expected: value, ..good }.passes());
+            assert!(!Comparison { tolerance: value, ..good }.passes());
+            assert!(!Comparison { expected: value, got: value, tolerance: value }.passes());
         }
-        assert!(!Outcome { got: 1.2, ..good }.passes());
-        assert!(!Outcome { tolerance: -0.1, ..good }.passes());
+        assert!(!Comparison { got: 1.2, ..good }.passes());
+        assert!(!Comparison { tolerance: -0.1, ..good }.passes());
     }
 
     #[test]

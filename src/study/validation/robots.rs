@@ -1,10 +1,10 @@
 //! Whole robots: the paper's against an independent program, and what must hold exactly.
 
-use super::{Failed, Outcome};
+use super::{Comparison, NoComparison};
 use crate::mechanics::{self, LengthRates, Statics};
 use crate::robot::{Cable, Damping, Linearisation, Motion, Robot, RobotSpec, Strain, TensionLaw, Vec2, paper_spec};
 use crate::stability::{self, Critical};
-use crate::study::Local;
+use crate::study::LocalProblem;
 use crate::study::convergence::{Convergence, Extrapolation, richardson};
 use crate::study::verdict::verdict;
 
@@ -63,41 +63,41 @@ impl Rate {
     }
 }
 
-fn statics(robot: &Robot, position: Vec2) -> Result<Statics, Failed> {
+fn statics(robot: &Robot, position: Vec2) -> Result<Statics, NoComparison> {
     Ok(mechanics::solve(robot, position).map_err(|failure| failure.reason)?)
 }
 
 /// The paper's robot, changed, at (x, 0), moving right.
-fn paper_at(x: f64, change: impl FnOnce(&mut RobotSpec)) -> Result<Local, Failed> {
+fn paper_at(x: f64, change: impl FnOnce(&mut RobotSpec)) -> Result<LocalProblem, NoComparison> {
     let mut spec = paper_spec();
     change(&mut spec);
     let motion = Motion::new([x, 0.0], [1.0, 0.0], 0.0)?;
-    Ok(Local::new(&Robot::new(spec)?, &motion).map_err(|failure| failure.reason)?)
+    Ok(LocalProblem::new(&Robot::new(spec)?, &motion).map_err(|failure| failure.reason)?)
 }
 
-fn critical(local: &Local) -> Result<Critical, Failed> {
+fn critical(local: &LocalProblem) -> Result<Critical, NoComparison> {
     match local.critical_speed(LIMIT)? {
         stability::Outcome::Found(critical) => Ok(critical),
-        stability::Outcome::NoneUpTo(_) => Err(Failed::Nothing("critical speed")),
+        stability::Outcome::NoneUpTo(_) => Err(NoComparison::Nothing("critical speed")),
     }
 }
 
-fn of(reference: &Reference) -> Result<Critical, Failed> {
+fn of(reference: &Reference) -> Result<Critical, NoComparison> {
     critical(&paper_at(reference.x, |spec| spec.linearisation = reference.linearisation)?)
 }
 
 /// The critical speed at one of the reference's poses.
-pub fn critical_speed(reference: &Reference) -> Result<Outcome, Failed> {
-    Ok(Outcome { expected: reference.speed, got: of(reference)?.speed, tolerance: CRITICAL })
+pub fn critical_speed(reference: &Reference) -> Result<Comparison, NoComparison> {
+    Ok(Comparison { expected: reference.speed, got: of(reference)?.speed, tolerance: CRITICAL })
 }
 
 /// The frequency of the mode that crosses there.
-pub fn critical_frequency(reference: &Reference) -> Result<Outcome, Failed> {
-    Ok(Outcome { expected: reference.frequency, got: of(reference)?.frequency_hz(), tolerance: CRITICAL })
+pub fn critical_frequency(reference: &Reference) -> Result<Comparison, NoComparison> {
+    Ok(Comparison { expected: reference.frequency, got: of(reference)?.frequency_hz(), tolerance: CRITICAL })
 }
 
 /// The vertical sum of the cables' forces on the platform, at a pose without symmetry: Σ P = (0, m g).
-pub fn balance() -> Result<Outcome, Failed> {
+pub fn balance() -> Result<Comparison, NoComparison> {
     let robot = Robot::new(paper_spec())?;
     let shapes = statics(&robot, Vec2::new(3.0, 1.0))?.cables;
     // Half of an element's weight acts at the platform: P = t₀ − (0, w l/2).
@@ -105,12 +105,12 @@ pub fn balance() -> Result<Outcome, Failed> {
     let got = shapes.iter().map(|shape| shape.t0.y - half_weight * shape.length).sum();
     // Newton's method ends at rounding, of the tensions' sum: some 1e-13 N, and the loss of a few digits on the way.
     let size: f64 = shapes.iter().map(|shape| shape.tension_at_platform).sum();
-    Ok(Outcome { expected: robot.platform_mass * robot.gravity, got, tolerance: 1e-12 * size })
+    Ok(Comparison { expected: robot.platform_mass * robot.gravity, got, tolerance: 1e-12 * size })
 }
 
 /// L′ or L″ of a cable under constant tension without gravity: it is straight, L = |p − a|/λ, so with s = d · e, e the
 /// direction from its anchor to the platform, L′ = s/λ and L″ = (1 − s²)/(|p − a| λ).
-pub fn straight(rate: Rate) -> Result<Outcome, Failed> {
+pub fn straight(rate: Rate) -> Result<Comparison, NoComparison> {
     let (tension, stiffness) = (50.0, 6250.0);
     let anchor = Vec2::new(-3.0, -5.0);
     let at_equilibrium = |x: f64| Cable { anchor: Vec2::new(x, 5.0), tension: TensionLaw::Equilibrium };
@@ -126,8 +126,9 @@ pub fn straight(rate: Rate) -> Result<Outcome, Failed> {
     })?;
     let (position, direction) = (Vec2::new(1.0, -1.0), Vec2::new(0.96, -0.28));
     let statics = statics(&robot, position)?;
-    let rates = mechanics::length_rates(&robot, &statics, direction).ok_or(Failed::Nothing("rate of the length"))?;
-    let got = rates.get(2).map(|&rates| rate.of(rates)).ok_or(Failed::Nothing("third cable"))?;
+    let rates =
+        mechanics::length_rates(&robot, &statics, direction).ok_or(NoComparison::Nothing("rate of the length"))?;
+    let got = rates.get(2).map(|&rates| rate.of(rates)).ok_or(NoComparison::Nothing("third cable"))?;
     let (chord, stretch) = (position - anchor, 1.0 + tension / stiffness);
     let s = direction.dot(&chord.normalize());
     let expected = match rate {
@@ -135,85 +136,85 @@ pub fn straight(rate: Rate) -> Result<Outcome, Failed> {
         Rate::Second => (1.0 - s * s) / (chord.norm() * stretch),
     };
     // Both are implicit derivatives, exact but for rounding in a system of three equations.
-    Ok(Outcome { expected, got, tolerance: 1e-12 })
+    Ok(Comparison { expected, got, tolerance: 1e-12 })
 }
 
 /// Of cable 1 at x = 6 m, where it sags deeply (`tests/reference/case_03.json`): the cable and its rates.
-fn sagging_cable() -> Result<(f64, LengthRates), Failed> {
+fn sagging_cable() -> Result<(f64, LengthRates), NoComparison> {
     let local = paper_at(6.0, |_| {})?;
     match (local.statics.cables.first(), local.rates.first()) {
         (Some(shape), Some(rates)) => Ok((shape.length, *rates)),
-        _ => Err(Failed::Nothing("cable")),
+        _ => Err(NoComparison::Nothing("cable")),
     }
 }
 
 /// The length of that cable.
-pub fn length() -> Result<Outcome, Failed> {
+pub fn length() -> Result<Comparison, NoComparison> {
     let expected = 17.123_118_276_924;
-    Ok(Outcome { expected, got: sagging_cable()?.0, tolerance: STATICS * expected })
+    Ok(Comparison { expected, got: sagging_cable()?.0, tolerance: STATICS * expected })
 }
 
 /// L′ or L″ of that cable.
-pub fn rate(rate: Rate) -> Result<Outcome, Failed> {
+pub fn rate(rate: Rate) -> Result<Comparison, NoComparison> {
     let (length, rates) = sagging_cable()?;
     // It is the longest.
     let (expected, tolerance) = match rate {
         Rate::First => (1.578_799_734, RATE),
         Rate::Second => (0.861_458_603, CURVATURE / length),
     };
-    Ok(Outcome { expected, got: rate.of(rates), tolerance })
+    Ok(Comparison { expected, got: rate.of(rates), tolerance })
 }
 
 /// The growth rate at rest without stiffness damping: every mode of λ² + α λ + ω² = 0 that oscillates has Re λ = −α/2.
-pub fn at_rest() -> Result<Outcome, Failed> {
+pub fn at_rest() -> Result<Comparison, NoComparison> {
     let alpha = 0.5;
     let local = paper_at(0.0, |spec| spec.damping = Damping { alpha, beta: 0.0 })?;
     // Rounding of eigenvalues up to 150/s, and what their iteration leaves.
-    Ok(Outcome { expected: -0.5 * alpha, got: local.spectrum(0.0)?.growth_rate(), tolerance: 1e-9 })
+    Ok(Comparison { expected: -0.5 * alpha, got: local.spectrum(0.0)?.growth_rate(), tolerance: 1e-9 })
 }
 
 /// The growth rate at x = 7 m and 5 m/s, beyond the critical speed (`tests/reference/case_04.json`).
-pub fn growth() -> Result<Outcome, Failed> {
+pub fn growth() -> Result<Comparison, NoComparison> {
     /// The largest modulus of all eigenvalues there, in 1/s.
     const LARGEST: f64 = 124.886;
     let got = paper_at(7.0, |_| {})?.spectrum(5.0)?.growth_rate();
-    Ok(Outcome { expected: 5.774_317_094_565, got, tolerance: EIGENVALUE * LARGEST })
+    Ok(Comparison { expected: 5.774_317_094_565, got, tolerance: EIGENVALUE * LARGEST })
 }
 
 /// The critical speed at x = −2 m moving left, against that of the mirror image.
-pub fn mirrored() -> Result<Outcome, Failed> {
+pub fn mirrored() -> Result<Comparison, NoComparison> {
     let expected = critical(&paper_at(2.0, |_| {})?)?.speed;
     let motion = Motion::new([-2.0, 0.0], [-1.0, 0.0], 0.0)?;
-    let local = Local::new(&Robot::new(paper_spec())?, &motion).map_err(|failure| failure.reason)?;
+    let local = LocalProblem::new(&Robot::new(paper_spec())?, &motion).map_err(|failure| failure.reason)?;
     // Both searches refine a crossing to 1e-9 m/s or better; rounding moves it by no more.
-    Ok(Outcome { expected, got: critical(&local)?.speed, tolerance: 1e-8 })
+    Ok(Comparison { expected, got: critical(&local)?.speed, tolerance: 1e-8 })
 }
 
 /// The x at y = 0 from which on cable 1 would have to push; tests/reference/oracle.py finds 7.4897135 m by bisection.
-pub fn border() -> Result<Outcome, Failed> {
+pub fn border() -> Result<Comparison, NoComparison> {
     let robot = Robot::new(paper_spec())?;
     let (mut taut, mut beyond) = (7.0, 8.0);
     if mechanics::solve(&robot, Vec2::new(beyond, 0.0)).is_ok() {
-        return Err(Failed::Nothing("border"));
+        return Err(NoComparison::Nothing("border"));
     }
     // To 1e-6 m; as much again is allowed.
     for _ in 0..20 {
         let middle = 0.5 * (taut + beyond);
         if mechanics::solve(&robot, Vec2::new(middle, 0.0)).is_ok() { taut = middle } else { beyond = middle }
     }
-    Ok(Outcome { expected: 7.489_713_5, got: taut, tolerance: 2e-6 })
+    Ok(Comparison { expected: 7.489_713_5, got: taut, tolerance: 2e-6 })
 }
 
 /// The limit of the critical speed at the origin for ever finer meshes, from 10, 20 and 40 elements. Those that
 /// tests/reference/oracle.py finds with 20, 40 and 80 (11.074348, 11.014073, 10.998582 m/s) have the limit 10.993223.
-pub fn fine_mesh() -> Result<Outcome, Failed> {
+pub fn fine_mesh() -> Result<Comparison, NoComparison> {
     let Extrapolation { limit, uncertainty, .. } = extrapolated(&paper_spec(), [10, 20, 40])?;
     // The study of meshes says itself how far the limit may be off: 0.005 m/s.
-    Ok(Outcome { expected: 10.993_223, got: limit, tolerance: uncertainty })
+    Ok(Comparison { expected: 10.993_223, got: limit, tolerance: uncertainty })
 }
 
 /// The limit of the critical speed at the origin, moving right, on three meshes that show its order.
-fn extrapolated(spec: &RobotSpec, meshes: [usize; 3]) -> Result<Extrapolation, Failed> {
+fn extrapolated(spec: &RobotSpec, meshes: [usize; 3]) -> Result<Extrapolation, NoComparison> {
     let motion = Motion::new([0.0, 0.0], [1.0, 0.0], 0.0)?;
     let mut verdicts = Vec::new();
     for elements in meshes {
@@ -222,7 +223,7 @@ fn extrapolated(spec: &RobotSpec, meshes: [usize; 3]) -> Result<Extrapolation, F
     }
     match richardson(&verdicts, meshes[0]) {
         Convergence::Limit(extrapolation) if extrapolation.estimated => Ok(extrapolation),
-        _ => Err(Failed::Nothing("limit with an order that was found")),
+        _ => Err(NoComparison::Nothing("limit with an order that was found")),
     }
 }
 
@@ -231,7 +232,7 @@ fn extrapolated(spec: &RobotSpec, meshes: [usize; 3]) -> Result<Extrapolation, F
 /// Without weight L = |p − a|/λ, so L′ = −1/λ and L″ = 0, and the flow at the winch is v/λ. Waves travel at
 /// sqrt(N/(λ μ)). The two are equal at v = sqrt(N λ/μ), where the cable's stiffness at the winch is zero; heavy mass
 /// damping keeps everything else away until then. The two cables at equilibrium hold the platform from behind.
-pub fn along_its_line() -> Result<Outcome, Failed> {
+pub fn along_its_line() -> Result<Comparison, NoComparison> {
     let at_equilibrium = |y: f64| Cable { anchor: Vec2::new(-6.0, y), tension: TensionLaw::Equilibrium };
     let drawing = Cable { anchor: Vec2::new(10.0, 0.0), tension: TensionLaw::Constant(60.0) };
     let stiffness = 6250.0;
@@ -248,5 +249,5 @@ pub fn along_its_line() -> Result<Outcome, Failed> {
     let expected = (60.0 * stretch / spec.mass_per_length).sqrt();
     let Extrapolation { limit, uncertainty, .. } = extrapolated(&spec, [20, 40, 80])?;
     // The study of meshes says itself how far the limit may be off: 0.2 % here, where the mesh of 80 is off by 0.8 %.
-    Ok(Outcome { expected, got: limit, tolerance: uncertainty })
+    Ok(Comparison { expected, got: limit, tolerance: uncertainty })
 }

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Const, DMatrix, DVector, Dyn, Matrix1, Matrix2, OMatrix, Vector1};
 
-use super::{Failed, Outcome, limit};
+use super::{Comparison, NoComparison, limit};
 use crate::mechanics::{Arrow, ArrowVector, Chain, Element, Hub, Material, Stiffness, Vibration};
 use crate::robot::{Damping, Linearisation, Strain, Vec2};
 use crate::stability::{self, CriticalSearch, Eigenproblem};
@@ -29,19 +29,19 @@ fn element(l: f64) -> Element {
 }
 
 /// A string of n elements with the flow `inflow(k)` = [w₀, w₁] through element k, in m/s.
-fn string(n: usize, damping: Damping, inflow: impl Fn(usize) -> [f64; 2]) -> Result<Vibration, Failed> {
+fn string(n: usize, damping: Damping, inflow: impl Fn(usize) -> [f64; 2]) -> Result<Vibration, NoComparison> {
     let elements = (0..n).map(|k| element(LENGTH / n as f64).with_inflow(inflow(k), [0.0, 0.0]));
-    let chain = Chain::new(elements.collect()).ok_or(Failed::Nothing("element"))?;
-    Vibration::of_cables(vec![chain], Hub::fixed(1), damping, true).ok_or(Failed::Nothing("cable"))
+    let chain = Chain::new(elements.collect()).ok_or(NoComparison::Nothing("element"))?;
+    Vibration::of_cables(vec![chain], Hub::fixed(1), damping, true).ok_or(NoComparison::Nothing("cable"))
 }
 
 /// The lowest frequency in Hz of a string that travels at v, for ever finer meshes: expected is (c² − v²)/(2 L c).
-fn lowest_frequency(v: f64) -> Result<Outcome, Failed> {
+fn lowest_frequency(v: f64) -> Result<Comparison, NoComparison> {
     let c = wave_speed();
-    let on_mesh = |n: usize| -> Result<f64, Failed> {
+    let on_mesh = |n: usize| -> Result<f64, NoComparison> {
         // The speed 1 carries the flow v: the matrices are those of unit speed.
         let spectrum = Eigenproblem::new(&string(n, UNDAMPED, |_| [v, v])?)?.spectrum(1.0)?;
-        spectrum.modes().next().map(|mode| mode.frequency_hz()).ok_or(Failed::Nothing("mode"))
+        spectrum.modes().next().map(|mode| mode.frequency_hz()).ok_or(NoComparison::Nothing("mode"))
     };
     let expected = (c * c - v * v) / (2.0 * LENGTH * c);
     // The shorter of the two waves turns by θ from node to node, and consistent masses make it faster by
@@ -49,33 +49,33 @@ fn lowest_frequency(v: f64) -> Result<Outcome, Failed> {
     // second −1/4 is left. At 0.4 c it is a little less than at rest. The extra 5 % is for θ⁶.
     let theta = PI * (1.0 + v / c) / 20.0;
     let tolerance = expected * 1.05 * theta.powi(4) / 7680.0;
-    Ok(Outcome { expected, got: limit(on_mesh(20)?, on_mesh(40)?), tolerance })
+    Ok(Comparison { expected, got: limit(on_mesh(20)?, on_mesh(40)?), tolerance })
 }
 
 /// The lowest frequency of a string at rest.
-pub fn at_rest() -> Result<Outcome, Failed> {
+pub fn at_rest() -> Result<Comparison, NoComparison> {
     lowest_frequency(0.0)
 }
 
 /// That of a string whose material travels from one fixed end to the other at 0.4 c.
-pub fn travelling() -> Result<Outcome, Failed> {
+pub fn travelling() -> Result<Comparison, NoComparison> {
     lowest_frequency(0.4 * wave_speed())
 }
 
 /// The critical speed of a damped travelling string: c on every mesh, since K + v² D = (N/λ − μ v²)/l times one matrix,
 /// and damping is complete (Kelvin, Tait and Chetaev).
-pub fn critical_speed() -> Result<Outcome, Failed> {
+pub fn critical_speed() -> Result<Comparison, NoComparison> {
     let expected = wave_speed();
     let vibration = string(10, Damping { alpha: 0.5, beta: 0.005 }, |_| [1.0, 1.0])?;
     let stability::Outcome::Found(critical) = CriticalSearch::new(2.0 * expected).run(&vibration)? else {
-        return Err(Failed::Nothing("critical speed"));
+        return Err(NoComparison::Nothing("critical speed"));
     };
     // There is no error of the mesh; the search refines a crossing to far less.
-    Ok(Outcome { expected, got: critical.speed, tolerance: 1e-6 })
+    Ok(Comparison { expected, got: critical.speed, tolerance: 1e-6 })
 }
 
 /// The frozen growth rate of a string that is reeled in at a hundredth of the wave speed: −L̇/(2L) to first order.
-pub fn frozen_growth() -> Result<Outcome, Failed> {
+pub fn frozen_growth() -> Result<Comparison, NoComparison> {
     const N: usize = 10;
     let part = 0.01;
     let rate = -part * wave_speed();
@@ -83,17 +83,17 @@ pub fn frozen_growth() -> Result<Outcome, Failed> {
     let vibration = string(N, UNDAMPED, inflow)?;
     let expected = -rate / (2.0 * LENGTH);
     let spectrum = Eigenproblem::new(&vibration)?.spectrum(1.0)?;
-    let got = spectrum.modes().next().map(|mode| mode.eigenvalue.re).ok_or(Failed::Nothing("mode"))?;
+    let got = spectrum.modes().next().map(|mode| mode.eigenvalue.re).ok_or(NoComparison::Nothing("mode"))?;
     // On the mesh too the symmetric part of C is L̇/L times M. With L̈ = 0, reeling out in place of in turns every
     // eigenvalue's sign, so the real part is odd in L̇: what follows is smaller by (L̇/c)².
-    Ok(Outcome { expected, got, tolerance: part * part * expected })
+    Ok(Comparison { expected, got, tolerance: part * part * expected })
 }
 
 /// The displacement of a string after half of it was reeled in at 0.3 c, three tenths from its still end, against
 /// u(S, t) = f(c t + S) − f(c t − S), f(z) = sin(2π ln(1 + z v/(c L₀))/ln((c + v)/(c − v))).
 ///
 /// This integrates the matrices in time, with nothing frozen.
-pub fn reeled_in() -> Outcome {
+pub fn reeled_in() -> Comparison {
     let c = wave_speed();
     let rate = -0.3 * c;
     let end = 0.5 * LENGTH / -rate;
@@ -121,7 +121,7 @@ pub fn reeled_in() -> Outcome {
     let [coarse, fine] = [20, 40].map(on_mesh);
     // 20 elements are off by 0.0103 of the largest displacement, 2 m (docs/theory.md section 10). Extrapolation takes the
     // first term of that away; the next one is of the size of its square, 2e-4 m.
-    Outcome { expected, got: limit(coarse, fine), tolerance: 2e-4 }
+    Comparison { expected, got: limit(coarse, fine), tolerance: 2e-4 }
 }
 
 /// A string of n elements with L(t) = L₀ + rate t and fixed ends: its nodes' displacements in m and their rates.

@@ -22,8 +22,8 @@ use crate::app::studies::{Known, Shown, Stage, Studies};
 use crate::app::{digits, series};
 use crate::compute::protocol::{Revision, Topic};
 use crate::robot::Vec2 as WorldVec2;
-use crate::stability::Kind;
-use crate::study::{Answer, Asked, Directions, NoAnswer, Study, Verdict};
+use crate::stability::Instability;
+use crate::study::{Answer, Directions, Mapped, NoEigenvalues, Study, Verdict};
 use paint::Texture;
 use picture::{NO_EQUILIBRIUM, NOT_COMPUTED};
 
@@ -34,7 +34,7 @@ const RENEWAL: f64 = 0.1;
 const QUANTITIES: [(MapQuantity, &str, &str); 5] = [
     (MapQuantity::Speed, "Critical speed", "The first speed at which a vibration grows, in m/s"),
     (MapQuantity::Frequency, "Frequency", "The frequency of the vibration that grows first; 0 for divergence"),
-    (MapQuantity::Kind, "Kind", "Flutter (a vibration grows) or divergence (a cable bows out)"),
+    (MapQuantity::Kind, "Instability", "Flutter (a vibration grows) or divergence (a cable bows out)"),
     (MapQuantity::Cable, "Cable", "The cable with most of the kinetic energy of the vibration that grows first"),
     (MapQuantity::Growth, "Growth rate", "The largest growth rate at today's speed, in 1/s; above 0 it is unstable"),
 ];
@@ -101,7 +101,7 @@ impl Layer {
 }
 
 fn asks_growth(known: &Known) -> bool {
-    matches!(known.wish.study, Study::Map { asked: Asked::Growth { .. }, .. })
+    matches!(known.wish.study, Study::Map { mapped: Mapped::Growth { .. }, .. })
 }
 
 /// Switch, quantity, direction and progress, in the canvas's upper right corner.
@@ -245,8 +245,10 @@ fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings, share
             let word = if *rate > 0.0 { "grows" } else { "dies out" };
             format!("{word}, growth rate {} 1/s", digits::certain(*rate, None))
         }
-        Some(Answer::Growth(Err(NoAnswer::Infeasible))) => NO_EQUILIBRIUM.into(),
-        Some(Answer::Growth(Err(NoAnswer::Failed)) | Answer::Spectrum(_) | Answer::Modes(_)) => NOT_COMPUTED.into(),
+        Some(Answer::Growth(Err(NoEigenvalues::Infeasible))) => NO_EQUILIBRIUM.into(),
+        Some(Answer::Growth(Err(NoEigenvalues::Failed)) | Answer::Spectrum(_) | Answer::Modes(_)) => {
+            NOT_COMPUTED.into()
+        }
         Some(Answer::Critical { direction, verdict, .. }) => match verdict {
             Verdict::Infeasible => NO_EQUILIBRIUM.into(),
             Verdict::Unknown => NOT_COMPUTED.into(),
@@ -254,11 +256,11 @@ fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings, share
             Verdict::NoneUpTo(speed) => format!("no critical speed up to {speed:.0} m/s"),
             Verdict::Critical(critical) => {
                 let kind = match critical.kind {
-                    Kind::Flutter => {
+                    Instability::Flutter => {
                         let (hertz, unit) = settings.hertz();
                         format!("flutter at {} {unit}", digits::like(critical.frequency_hz() * hertz, share))
                     }
-                    Kind::Divergence => "divergence".into(),
+                    Instability::Divergence => "divergence".into(),
                 };
                 let worst = match known.wish.study {
                     Study::Map { directions: Directions::Worst(_), .. } => {

@@ -183,7 +183,7 @@ pub fn legend(
     let title = match picture.quantity {
         MapQuantity::Speed => "Critical speed (m/s)".into(),
         MapQuantity::Frequency => format!("Frequency at the critical speed ({unit})"),
-        MapQuantity::Kind => "Kind of instability".into(),
+        MapQuantity::Kind => "Instability of instability".into(),
         MapQuantity::Cable => "Responsible cable".into(),
         MapQuantity::Growth => format!("Growth rate at {:.2} m/s (1/s)", document.scenario.motion.speed),
     };

@@ -3,8 +3,8 @@
 use crate::app::state::MapQuantity;
 use crate::app::studies::Known;
 use crate::robot::{BoundingBox, Vec2};
-use crate::stability::{Critical, Kind};
-use crate::study::{Answer, Grid, NoAnswer, Study, Verdict};
+use crate::stability::{Critical, Instability};
+use crate::study::{Answer, Grid, NoEigenvalues, Study, Verdict};
 
 /// Answers come from every so-many-th point of every so-many-th row first.
 const COARSEST: usize = 8;
@@ -225,8 +225,8 @@ fn cell(answer: Option<&Answer>, quantity: MapQuantity) -> Cell {
             Verdict::Critical(critical) => show(critical, quantity),
         },
         Some(Answer::Growth(Ok(rate))) if quantity == MapQuantity::Growth => Cell::Value(*rate),
-        Some(Answer::Growth(Err(NoAnswer::Infeasible))) => Cell::Infeasible,
-        Some(Answer::Growth(Err(NoAnswer::Failed))) => Cell::Failed,
+        Some(Answer::Growth(Err(NoEigenvalues::Infeasible))) => Cell::Infeasible,
+        Some(Answer::Growth(Err(NoEigenvalues::Failed))) => Cell::Failed,
         Some(Answer::Growth(_) | Answer::Spectrum(_) | Answer::Modes(_)) | None => Cell::Unknown,
     }
 }
@@ -235,7 +235,7 @@ fn show(critical: &Critical, quantity: MapQuantity) -> Cell {
     match quantity {
         MapQuantity::Speed => Cell::Value(critical.speed),
         MapQuantity::Frequency => Cell::Value(critical.frequency_hz()),
-        MapQuantity::Kind => Cell::Class(usize::from(critical.kind == Kind::Divergence)),
+        MapQuantity::Kind => Cell::Class(usize::from(critical.kind == Instability::Divergence)),
         MapQuantity::Cable => Cell::Class(critical.cable),
         MapQuantity::Growth => Cell::Unknown,
     }
@@ -295,7 +295,7 @@ mod tests {
     use crate::app::settings::Settings;
     use crate::app::studies::Wish;
     use crate::scenario::presets;
-    use crate::study::{Asked, Directions};
+    use crate::study::{Directions, Mapped};
     use nalgebra::Complex;
     use std::f64::consts::TAU;
 
@@ -303,14 +303,14 @@ mod tests {
         let scenario = presets::PRESETS[0].scenario();
         let (robot, motion) = scenario.to_robot().expect("physical");
         let directions = Directions::One(motion.direction());
-        let study = Study::Map { grid: Grid::of(&robot, 41, 21), directions, asked: Asked::Critical { limit: 40.0 } };
+        let study = Study::Map { grid: Grid::of(&robot, 41, 21), directions, mapped: Mapped::Critical { limit: 40.0 } };
         let wish = Wish::new(&scenario, study);
         let places = (0..41 * 21).map(|index| answer(index % 41, index / 41)).collect();
         Known { wish, places, version: (1, 1) }
     }
 
     fn critical(speed: f64, cable: usize) -> Answer {
-        let critical = Critical { speed, eigenvalue: Complex::new(0.0, TAU), kind: Kind::Flutter, cable };
+        let critical = Critical { speed, eigenvalue: Complex::new(0.0, TAU), kind: Instability::Flutter, cable };
         Answer::Critical { direction: Vec2::x(), verdict: Verdict::Critical(critical), wave_limit: None }
     }
 
@@ -365,7 +365,7 @@ mod tests {
         for (failed, infeasible, quantity) in [
             (verdict(Verdict::Unknown), verdict(Verdict::Infeasible), MapQuantity::Speed),
             (verdict(Verdict::NotConverged), verdict(Verdict::Infeasible), MapQuantity::Cable),
-            (growth(Err(NoAnswer::Failed)), growth(Err(NoAnswer::Infeasible)), MapQuantity::Growth),
+            (growth(Err(NoEigenvalues::Failed)), growth(Err(NoEigenvalues::Infeasible)), MapQuantity::Growth),
         ] {
             let half = known(|column, _| Some(if column < 20 { failed.clone() } else { infeasible.clone() }));
             let picture = Picture::new(&half, quantity).expect("a map");

@@ -7,7 +7,7 @@ use nalgebra::Complex;
 use crate::robot::{Motion, Robot, Vec2};
 use crate::scenario::Scenario;
 use crate::stability::{ALLOWED_LIMIT, Steps, is_limit};
-use crate::study::{Answer, Asked, Directions, Study};
+use crate::study::{Answer, Directions, Mapped, Study};
 
 use super::protocol::StudyJob;
 
@@ -24,12 +24,12 @@ const MOST_DIRECTIONS: usize = 360;
 
 /// A study with the robot it is of.
 #[derive(Debug)]
-pub struct Places {
+pub struct RobotStudy {
     robot: Robot,
     study: Study,
 }
 
-impl Places {
+impl RobotStudy {
     /// The study that `job` wants.
     ///
     /// # Errors
@@ -100,7 +100,7 @@ fn check(study: &Study) -> Result<(), String> {
             motion(line.to, line.direction, 0.0)?;
             search_limit(*limit)?;
         }
-        Study::Map { grid, directions, asked } => {
+        Study::Map { grid, directions, mapped } => {
             let direction = match directions {
                 Directions::One(direction) => *direction,
                 Directions::Worst(count) if *count > MOST_DIRECTIONS => {
@@ -108,9 +108,9 @@ fn check(study: &Study) -> Result<(), String> {
                 }
                 Directions::Worst(_) => Vec2::x(),
             };
-            let speed = match asked {
-                Asked::Critical { limit } => search_limit(*limit).map(|_| 0.0)?,
-                Asked::Growth { speed } => *speed,
+            let speed = match mapped {
+                Mapped::Critical { limit } => search_limit(*limit).map(|_| 0.0)?,
+                Mapped::Growth { speed } => *speed,
             };
             motion(grid.low, direction, speed)?;
             motion(grid.high, direction, speed)?;

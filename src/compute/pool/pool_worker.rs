@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use web_time::Instant;
 
-use crate::compute::places::Places;
-use crate::compute::protocol::{Batch, BatchAnswer, Task, Topic};
+use crate::compute::protocol::{AnsweredBatch, Batch, Task, Topic};
+use crate::compute::robot_study::RobotStudy;
 use crate::stability::Steps;
 use crate::study::Answer;
 
@@ -17,32 +17,32 @@ const SLICE: Duration = Duration::from_millis(8);
 const LONGEST: Duration = Duration::from_millis(20);
 
 /// How a place is answered.
-type AnswerAt = dyn Fn(&Arc<Places>, usize) -> Steps<Answer> + Send + Sync;
+type AnswerAt = dyn Fn(&Arc<RobotStudy>, usize) -> Steps<Answer> + Send + Sync;
 
-/// Serves tasks, one after the other and in slices: feed it with [`Bench::submit`], then call [`Bench::work`] until it
-/// returns `None`.
-pub struct Bench {
+/// Serves tasks, one after the other and in slices. Feed it with [`PoolWorker::submit`], then call [`PoolWorker::work`]
+/// until it returns `None`.
+pub struct PoolWorker {
     answer: Arc<AnswerAt>,
     /// By topic the newest study with its generation; each is read from its scenario once.
-    studies: BTreeMap<Topic, (u64, Arc<Places>)>,
-    batches: VecDeque<AtWork>,
+    studies: BTreeMap<Topic, (u64, Arc<RobotStudy>)>,
+    batches: VecDeque<RunningBatch>,
 }
 
 /// A batch with its answers so far.
-struct AtWork {
+struct RunningBatch {
     batch: Batch,
     place: Option<Steps<Answer>>,
     answers: Vec<(usize, Answer)>,
     spent: Duration,
 }
 
-impl Default for Bench {
+impl Default for PoolWorker {
     fn default() -> Self {
-        Self::by(Arc::new(Places::answer))
+        Self::by(Arc::new(RobotStudy::answer))
     }
 }
 
-impl Bench {
+impl PoolWorker {
     /// One that answers each place by `answer`.
     pub(super) fn by(answer: Arc<AnswerAt>) -> Self {
         Self { answer, studies: BTreeMap::new(), batches: VecDeque::new() }
@@ -54,7 +54,7 @@ impl Bench {
             Task::Study { generation, job } => {
                 self.studies.remove(&Topic::of(&job.study));
                 // The pool has read it before; what cannot be read leaves its batches without answers.
-                if let Ok(places) = Places::new(&job) {
+                if let Ok(places) = RobotStudy::new(&job) {
                     self.studies.insert(Topic::of(&job.study), (generation, Arc::new(places)));
                 }
             }
@@ -62,7 +62,7 @@ impl Bench {
                 self.studies.remove(&topic);
             }
             Task::Batch(batch) => {
-                self.batches.push_back(AtWork { batch, place: None, answers: Vec::new(), spent: Duration::ZERO });
+                self.batches.push_back(RunningBatch { batch, place: None, answers: Vec::new(), spent: Duration::ZERO });
             }
         }
     }
@@ -70,7 +70,7 @@ impl Bench {
     /// Does a slice of work; gives the answer of a batch that ends with it. `None` when there is nothing left to do.
     ///
     /// A batch of a study that has been forgotten, or replaced, ends at once with what it has.
-    pub fn work(&mut self) -> Option<Option<BatchAnswer>> {
+    pub fn work(&mut self) -> Option<Option<AnsweredBatch>> {
         let at_work = self.batches.front_mut()?;
         let begun = Instant::now();
         let known = self.studies.get(&at_work.batch.topic);
@@ -80,14 +80,14 @@ impl Bench {
         if !ended {
             return Some(None);
         }
-        let AtWork { answers, spent, .. } = self.batches.pop_front()?;
-        Some(Some(BatchAnswer { answers, seconds: spent.as_secs_f64() }))
+        let RunningBatch { answers, spent, .. } = self.batches.pop_front()?;
+        Some(Some(AnsweredBatch { answers, seconds: spent.as_secs_f64() }))
     }
 }
 
-impl AtWork {
+impl RunningBatch {
     /// Goes on for the slice that has `begun`; whether the batch ends with it.
-    fn go_on(&mut self, places: &Arc<Places>, answer: &AnswerAt, begun: Instant) -> bool {
+    fn go_on(&mut self, places: &Arc<RobotStudy>, answer: &AnswerAt, begun: Instant) -> bool {
         while let Some(&place) = self.batch.places.get(self.answers.len()) {
             let steps = self.place.get_or_insert_with(|| answer(places, place));
             loop {
@@ -120,14 +120,14 @@ mod tests {
     use crate::study::{Line, Study};
 
     /// A place that never ends, in steps of a millisecond.
-    fn endless() -> Bench {
+    fn endless() -> PoolWorker {
         let forever = || async {
             loop {
                 std::thread::sleep(Duration::from_millis(1));
                 step().await;
             }
         };
-        Bench::by(Arc::new(move |_, _| Steps::new(forever())))
+        PoolWorker::by(Arc::new(move |_, _| Steps::new(forever())))
     }
 
     fn told(generation: u64, points: usize) -> [Task; 2] {
@@ -143,25 +143,25 @@ mod tests {
     #[test]
     fn a_place_is_given_up_when_its_study_is_forgotten_or_replaced() {
         for replaced in [false, true] {
-            let mut bench = endless();
+            let mut pool_worker = endless();
             for task in told(1, 3) {
-                bench.submit(task);
+                pool_worker.submit(task);
             }
             for _ in 0..5 {
                 let begun = Instant::now();
-                assert_eq!(bench.work(), Some(None));
+                assert_eq!(pool_worker.work(), Some(None));
                 assert!(begun.elapsed() < 20 * SLICE, "{:?}", begun.elapsed());
             }
             if replaced {
                 for task in told(2, 2) {
-                    bench.submit(task);
+                    pool_worker.submit(task);
                 }
             } else {
-                bench.submit(Task::Forget(Topic::Line));
+                pool_worker.submit(Task::Forget(Topic::Line));
             }
-            let Some(Some(BatchAnswer { answers, .. })) = bench.work() else { panic!("no answer") };
+            let Some(Some(AnsweredBatch { answers, .. })) = pool_worker.work() else { panic!("no answer") };
             assert!(answers.is_empty());
-            assert_eq!(bench.work(), replaced.then_some(None), "what is left is the newer study");
+            assert_eq!(pool_worker.work(), replaced.then_some(None), "what is left is the newer study");
         }
     }
 }
