@@ -372,7 +372,7 @@ fn check_cables(cables: &[Cable], faults: &mut Vec<Fault>) -> Vec<usize> {
         let allowed = format!("{} to {} cables", CABLES.start(), CABLES.end());
         faults.push(Fault::new("cables", format!("a list of {}", cables.len()), allowed));
     }
-    // Of a list that is far too long only the first are compared, each with all before it.
+    // If the list is far too long, only its first cables are compared, each with all before it.
     for (j, b) in cables.iter().enumerate().take(*CABLES.end()) {
         for (i, a) in cables[..j].iter().enumerate() {
             if (a.anchor - b.anchor).norm() < COINCIDENT {

@@ -92,7 +92,7 @@ pub(super) struct Rows {
     pub(super) row: Box<dyn Fn(usize) -> Row + Send + Sync>,
     /// How they are printed.
     pub(super) form: Form,
-    /// On so many threads.
+    /// On how many threads they are computed.
     pub(super) threads: usize,
 }
 

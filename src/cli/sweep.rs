@@ -15,7 +15,7 @@ use crate::robot::{Faults, Vec2};
 use crate::scenario::{Parameter, Scenario};
 use crate::study::{Verdict, evenly, verdict};
 
-/// A sweep has at most so many rows.
+/// The most rows of a sweep.
 const MOST_ROWS: usize = 10_000_000;
 
 /// Critical speed and frequency for every combination of some of the scenario's numbers.

@@ -158,7 +158,7 @@ pub(super) fn critical_sentence(critical: &CriticalReport) -> String {
     format!("{} m/s, {how}, in cable {}", digits(critical.speed, 5), critical.cable)
 }
 
-/// `number` to so many significant digits, without zeros at the end; with an exponent where it is very large or small.
+/// `number` to a number of `significant` digits, without zeros at the end; with an exponent where it is very large or small.
 pub(super) fn digits(number: f64, significant: usize) -> String {
     let rounded = format!("{number:.*e}", significant - 1);
     let exponent = rounded.split_once('e').and_then(|(_, exponent)| exponent.parse::<i32>().ok());

@@ -1,9 +1,10 @@
 //! The engine: takes the newest request, works in slices, replies as soon as something is known.
 //!
-//! The pose (shapes, spectrum, modes) of a new request is always served first: that is what follows the pointer. Where all
-//! of its modes take long, the slowest ones are served at once, and all of them after the critical speed. A search for the
-//! critical speed that is under way may finish if it does so soon; otherwise a drag would never show one, since each new
-//! position would start it again. Everything else that is under way is dropped for a newer pose after any slice.
+//! The pose (shapes, spectrum, modes) of a new request is always served first, since it follows the pointer. If all of its
+//! modes take long, the slowest ones are served at once, and all of them after the critical speed. A search for the critical
+//! speed that is under way may finish if it does so soon. Otherwise each new position of a drag would start it again, and
+//! the drag would never show a critical speed. Everything else that is under way is dropped for a newer pose after any
+//! slice.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -29,21 +30,22 @@ use crate::study::{LocalProblem, Sensitivity, sensitivities_in_steps};
 const SLICE: Duration = Duration::from_millis(8);
 /// A pose is served with all its modes where they take no longer than this, else with the slowest ones first.
 const PROMPT: Duration = Duration::from_millis(50);
-/// So many of them: more than the table of modes shows at once.
+/// How many of the slowest modes are served first: more than the table of modes shows at once.
 const SLOWEST: usize = 24;
 /// A search that has run for longer is dropped for a newer pose.
 const PATIENCE: Duration = Duration::from_millis(400);
-/// A curve of growth rates that has taken longer is dropped for a newer pose; others are finished, so that a drag shows
-/// curves.
+/// A curve of growth rates that has taken longer is dropped for a newer pose. Shorter ones are finished, so that a drag
+/// shows curves.
 const CURVE_PATIENCE: Duration = Duration::from_millis(100);
-/// For so long after a curve the next one is dropped for a newer pose: the critical speed is to follow the pointer.
+/// A curve that follows within this time of another is dropped for a newer pose, so that the critical speed can follow the
+/// pointer.
 const CURVE_PAUSE: Duration = Duration::from_millis(500);
-/// The curve of growth rates goes on to this multiple of the critical speed and of today's.
+/// The curve of growth rates ends at this multiple of the critical speed or of the scenario's, whichever is higher.
 const CURVE_MARGIN: f64 = 1.3;
-/// The curve's points where the search has left none, and beyond those that it has left.
+/// How many points a curve gets: where the search has left none; and beyond the last one, where it has left some.
 const CURVE_POINTS: u32 = 60;
 const CURVE_POINTS_BEYOND: u32 = 24;
-/// A curve is to take about so long: on fine meshes it has fewer points, but at least some.
+/// A curve takes about this time at most. On fine meshes it has fewer points for that, but at least the following number.
 const CURVE_TIME: Duration = Duration::from_secs(2);
 const LEAST_CURVE_POINTS: u32 = 8;
 
@@ -200,8 +202,8 @@ impl Engine {
 }
 
 impl Engine {
-    /// Goes on with the pose that is about to be served. It is served whatever comes, for its slowest modes are there soon:
-    /// a drag is to show something.
+    /// Goes on with the pose that is about to be served. A newer one does not stop that: the slowest modes are there soon,
+    /// and a drag has to show something.
     fn serve_first(&mut self) -> Slice {
         let Some(pose) = &mut self.first else { return Vec::new() };
         if !pose.first_slice() {
@@ -249,7 +251,7 @@ async fn all_modes(local: Arc<LocalProblem>, speed: f64, polarisation: Polarisat
     Some((spectrum, rows))
 }
 
-/// Its slowest ones.
+/// The slowest modes of a pose at `speed` (m/s), in steps.
 async fn slowest_modes(local: Arc<LocalProblem>, speed: f64, polarisation: Polarisation) -> Vec<ModeRow> {
     let values = local.spectra.slowest_in_steps(speed, SLOWEST).await;
     rows(&local, speed, values, polarisation).await
@@ -317,7 +319,7 @@ impl Pose {
         Reply { revision: self.revision, update }
     }
 
-    /// A slice of what is served first; whether that is there.
+    /// Does a slice of what is served first; tells whether that is complete.
     fn first_slice(&mut self) -> bool {
         let begun = Instant::now();
         while begun.elapsed() < SLICE {
@@ -435,13 +437,13 @@ impl Pose {
         })
     }
 
-    /// What comes once all modes are there, or cannot be computed.
+    /// Goes on to the curve once all modes are known; where they cannot be computed, to the sensitivities.
     fn curve(&mut self) -> Slice {
         if let (Extent::All, Some(curve)) = (self.extent, self.curve.take()) {
             self.phase = Phase::Curve { steps: curve.steps(self.local.clone(), self.effort), since: Instant::now() };
             return Vec::new();
         }
-        // Nor would the eigenvalues be found at other speeds.
+        // Where the eigenvalues could not be found at one speed, they would not be at others: no curve.
         self.phase = Phase::Sensitivities(self.sensitivities());
         vec![self.reply(Update::Curve(Vec::new()))]
     }
@@ -554,7 +556,7 @@ mod tests {
         engine.submit(Request::Analyze(job));
         let replies = engine.work().expect("work");
         let Some(Update::Pose(pose)) = replies.into_iter().map(|reply| reply.update).next() else { panic!("no pose") };
-        // The search's own matrices; the pose has been computed from the others.
+        // Only the search sees this copy of the matrices: the pose has been computed already.
         let waiting = engine.waiting.as_mut().expect("a pose");
         let mut local = LocalProblem::clone(&waiting.local);
         local.vibration.chains[1].elements_mut()[2].stiffness.across = f64::NAN;
@@ -562,7 +564,7 @@ mod tests {
         (pose.report, std::iter::from_fn(|| engine.work()).flatten().collect())
     }
 
-    /// Cables, eigenvalues and modes stay; the curve and what follows from the pose alone comes, too.
+    /// Cables, eigenvalues and modes stay, and the curve still comes.
     #[test]
     fn where_only_the_search_fails_the_pose_stays_and_the_reason_is_told() {
         let (pose, replies) = replies_of_a_search_that_fails();

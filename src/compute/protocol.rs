@@ -66,8 +66,8 @@ pub struct Reply {
 /// What became known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Update {
-    /// The pose and its spectrum at the scenario's speed; the critical speed is still to come. Of a large robot it comes twice:
-    /// with the slowest modes at once, and with all of them after the critical speed.
+    /// The pose and its spectrum at the scenario's speed; the critical speed is still to come. For a large robot this update
+    /// comes twice: with the slowest modes at once, and with all modes after the critical speed.
     Pose(Box<AnalysedPose>),
     /// The pose has no answer. The analysis is complete.
     Failed(Box<FailedPose>),
@@ -96,7 +96,7 @@ pub struct AnalysedPose {
     pub axial_forces: Vec<Vec<f64>>,
     /// The modes in rising order of frequency.
     pub modes: Vec<ModeRow>,
-    /// Which of them.
+    /// Whether these are all.
     pub extent: Extent,
 }
 
@@ -177,7 +177,7 @@ pub struct CheckResult {
 pub struct ModeRow {
     /// [Re λ, Im λ] in 1/s, Im λ ≥ 0.
     pub eigenvalue: [f64; 2],
-    /// Equal modes that this row stands for.
+    /// How many equal modes this row stands for.
     pub multiplicity: usize,
     /// In Hz.
     pub frequency_hz: f64,
@@ -344,7 +344,8 @@ pub struct Batch {
 /// The answers to a batch; a worker answers its batches in the order in which they come.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct AnsweredBatch {
-    /// The first so many of the batch's places: a worker stops when it has taken its time.
+    /// Places, from the batch's first on, with what was found there. A worker that has taken its time leaves the last ones
+    /// out.
     pub answers: Vec<(usize, Answer)>,
     /// How long it took, in s.
     pub seconds: f64,

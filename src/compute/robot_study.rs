@@ -11,18 +11,18 @@ use crate::study::{Answer, Directions, Mapped, Study};
 
 use super::protocol::StudyJob;
 
-/// Elements of all cables of a place of weight 1, in one direction.
+/// A place that looks in one direction has weight 1 if all cables together have this number of elements.
 const USUAL_ELEMENTS: f64 = 40.0;
 /// Joining spectra to modes has weight 1 where the cubes of their numbers of eigenvalues add up to this.
 const USUAL_CUBES: f64 = 1e6;
 /// A coarse map has every 4th point of every 4th row.
 const COARSE: usize = 4;
-/// A study has no more places, and looks in no more directions at one of them. The page asks for far less; what is more is
-/// not a message of the page.
+/// The most places of a study, and the most directions at one place. The page asks for far fewer, so a message with more is
+/// none of the page's.
 const MOST_PLACES: usize = 1 << 20;
 const MOST_DIRECTIONS: usize = 360;
 
-/// A study with the robot it is of.
+/// A study together with its robot, both checked.
 #[derive(Debug)]
 pub struct RobotStudy {
     robot: Robot,
@@ -33,7 +33,7 @@ impl RobotStudy {
     /// The study that `job` wants.
     ///
     /// # Errors
-    /// A scenario that is not physical, or a study that nobody could do, with the reason.
+    /// A scenario that is not physical, or numbers that a study must not have, with the reason.
     pub fn new(job: &StudyJob) -> Result<Self, String> {
         check(&job.study)?;
         let scenario = Scenario::from_json(&job.scenario).map_err(|faults| faults.to_string())?;
@@ -55,10 +55,10 @@ impl RobotStudy {
         }
     }
 
-    /// About how much work a place is; 1 is a direction at a pose of a robot such as the paper's.
+    /// About how much work a place is. One direction at one pose of a robot like the paper's has weight 1.
     pub fn weight(&self, place: usize) -> f64 {
         let elements = match &self.study {
-            // An assignment takes up to the cube of their number, at each speed.
+            // Joining two spectra takes a time that grows with the cube of their size.
             Study::Modes { spectra } => {
                 let cubes = spectra.iter().map(|(_, eigenvalues)| (eigenvalues.len() as f64).powi(3));
                 return (cubes.sum::<f64>() / USUAL_CUBES).max(1.0);
@@ -80,7 +80,7 @@ impl RobotStudy {
         Steps::new(async move { places.study.answer_in_steps(&places.robot, place).await })
     }
 
-    /// The answer where the attempt at one fails.
+    /// The answer at a place where every attempt has failed.
     pub fn unknown(&self, place: usize) -> Answer {
         self.study.unknown(place)
     }

@@ -1,18 +1,19 @@
-//! Whether a worker is still there. Workers that end or hang say nothing: now and then one is asked for a sign of life.
+//! Whether a worker is still there. A worker that ends or hangs says nothing, so now and then it is asked for a sign of
+//! life.
 
 use std::time::Duration;
 
-/// A worker is asked no more often than this.
+/// The least time between two such questions.
 const PAUSE: Duration = Duration::from_secs(1);
-/// One that has been silent for so long is lost, if its robot is small.
+/// A worker with a small robot is lost after this silence.
 const PATIENCE: Duration = Duration::from_secs(10);
-/// So much longer for the largest robot, of 8 cables with 200 elements. Between two looks at the inbox there are 8 ms of
-/// work, but where the dense solver has to be asked: its time grows with the robot's size.
+/// With the largest robot (8 cables of 200 elements) it is lost after this time more. A worker usually looks at its inbox
+/// every 8 ms; only the dense solver keeps it longer, and its time grows with the robot's size.
 const LARGEST_PATIENCE: Duration = Duration::from_mins(5);
 const LARGEST: f64 = 1600.0;
-/// One that has never answered may still be on its way over a slow network.
+/// A worker that has never answered is given this time: its program may still be on its way over a slow network.
 const START_PATIENCE: Duration = Duration::from_secs(40);
-/// Time between two calls counts up to this: a page may sleep, and its worker with it.
+/// Of the time between two calls no more than this counts: a page may sleep, and its worker with it.
 const LONGEST_STEP: Duration = Duration::from_secs(1);
 
 /// Watches one worker.
@@ -25,7 +26,7 @@ pub struct Watch {
     /// For how long the worker has owed an answer, where it does.
     silent: Option<Duration>,
     alive: bool,
-    /// For how long it may be silent over what it has been given last, and over what it may still be at.
+    /// The silence allowed for the robot given last, and for the one that the worker may still be at.
     expected: Duration,
     patience: Duration,
 }
@@ -55,7 +56,7 @@ impl Watch {
         self.patience = self.expected;
     }
 
-    /// The worker is given a robot of so many elements.
+    /// The worker is given a robot with this number of `elements` in all its cables.
     pub fn expect(&mut self, elements: usize) {
         self.expected = PATIENCE + LARGEST_PATIENCE.mul_f64((elements as f64 / LARGEST).min(1.0).powi(2));
         self.patience = self.patience.max(self.expected);

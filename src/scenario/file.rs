@@ -78,7 +78,7 @@ pub fn read(source: &mut dyn Read) -> Result<String, FileError> {
     decode(&bytes)
 }
 
-/// Whether a scenario file may have so many bytes.
+/// Whether a scenario file may have this number of bytes.
 ///
 /// # Errors
 /// [`FileError::TooLarge`].

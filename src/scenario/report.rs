@@ -230,7 +230,7 @@ impl Report {
         }
     }
 
-    /// The report of a pose of which nothing is known, not even whether it is feasible.
+    /// The report where nothing is known of the pose, not even whether it is feasible.
     pub fn unknown(reason: &str, speed: f64) -> Self {
         Self {
             schema: SCHEMA.into(),

@@ -30,8 +30,8 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// A pool without workers; they start once there is work, or by [`Self::prepare`]. `wake` is called whenever there is news to poll for, on
-    /// the desktop from any thread.
+    /// A pool without workers; they start once there is work, or by [`Self::prepare`]. `wake` is called whenever there is
+    /// news to poll for, on the desktop from any thread.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self { shared: SharedCore::new(wake) }
     }

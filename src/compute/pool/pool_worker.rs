@@ -11,7 +11,7 @@ use crate::compute::robot_study::RobotStudy;
 use crate::stability::Steps;
 use crate::study::Answer;
 
-/// A slice of work ends after this time, so that the worker sees soon what else it is told.
+/// A slice of work ends after this time, so that the worker soon looks at its inbox.
 const SLICE: Duration = Duration::from_millis(8);
 /// A batch ends after this time, whatever is left of it.
 const LONGEST: Duration = Duration::from_millis(20);
@@ -23,7 +23,7 @@ type AnswerAt = dyn Fn(&Arc<RobotStudy>, usize) -> Steps<Answer> + Send + Sync;
 /// until it returns `None`.
 pub struct PoolWorker {
     answer: Arc<AnswerAt>,
-    /// By topic the newest study with its generation; each is read from its scenario once.
+    /// The newest study of each topic, with its generation. Its scenario is read once.
     studies: BTreeMap<Topic, (u64, Arc<RobotStudy>)>,
     batches: VecDeque<RunningBatch>,
 }
@@ -53,7 +53,7 @@ impl PoolWorker {
         match task {
             Task::Study { generation, job } => {
                 self.studies.remove(&Topic::of(&job.study));
-                // The pool has read it before; what cannot be read leaves its batches without answers.
+                // The pool has checked it before. Batches of a study that is refused here end without answers.
                 if let Ok(places) = RobotStudy::new(&job) {
                     self.studies.insert(Topic::of(&job.study), (generation, Arc::new(places)));
                 }

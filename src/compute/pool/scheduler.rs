@@ -12,13 +12,13 @@ pub type WorkerId = u64;
 
 /// While a worker does a batch of less work than this, in s, its next one is sent ahead.
 const AHEAD: f64 = 0.020;
-/// What a place of weight 1 takes, in s, as long as nothing is known.
+/// The time of a place of weight 1, in s, as long as none is known.
 const FIRST_GUESS: f64 = 0.004;
 /// A worker that has not started by then is lost.
 const START_PATIENCE: Duration = Duration::from_secs(20);
-/// After so many workers that did not start, no more are tried until a study is wanted again.
+/// After this number of workers that did not start, no more are tried until a study is wanted again.
 const MOST_FAILURES: u32 = 3;
-/// Time between two calls counts up to this: a page may sleep, and its workers with it.
+/// Of the time between two calls no more than this counts: a page may sleep, and its workers with it.
 const LONGEST_STEP: Duration = Duration::from_secs(1);
 
 /// What is to be done.
@@ -41,7 +41,7 @@ pub struct Scheduler {
     /// Whether a worker is to be there before there is work.
     prepared: bool,
     studies: BTreeMap<Topic, RunningStudy>,
-    /// What a place of weight 1 took of late, in s.
+    /// The time that a place of weight 1 took of late, in s.
     rates: BTreeMap<Topic, f64>,
     workers: BTreeMap<WorkerId, Worker>,
     /// Workers to be ended.
@@ -56,7 +56,7 @@ pub struct Scheduler {
     /// Workers that did not start since a study was wanted, and why the last one did not.
     failures: u32,
     failure: String,
-    /// What the caller's clock said last, and the time that counts.
+    /// The caller's clock at the last call, and the time that counts.
     seen: Duration,
     now: Duration,
 }
@@ -118,7 +118,7 @@ impl Scheduler {
     /// Ends a topic's study; nothing more comes of it, not even news that has not been fetched.
     pub fn cancel(&mut self, topic: Topic) {
         if let Some(study) = self.studies.remove(&topic) {
-            // Places may take long: who is at one of them is to be free for what is wanted now.
+            // A place may take long. The workers that are at one are told, so that they are free for what is wanted now.
             let is_at_it = |worker: &Worker| {
                 worker.batches.iter().any(|batch| (batch.topic, batch.generation) == (topic, study.generation))
             };
@@ -141,7 +141,7 @@ impl Scheduler {
         self.held = held;
     }
 
-    /// Has a worker ready for the first study, as soon as nothing is held.
+    /// Starts a worker before there is a study, as soon as nothing is held.
     pub fn prepare(&mut self) {
         self.prepared = true;
     }
@@ -300,7 +300,7 @@ impl Scheduler {
         }
     }
 
-    /// As many as there is work for, and the one that is to be there before.
+    /// Starts as many workers as there is work for, and the one that has to be there before.
     fn start_workers(&mut self, actions: &mut Vec<Action>) {
         let first = usize::from(self.prepared && self.workers.is_empty());
         let waiting = self.studies.values().map(RunningStudy::waiting).sum::<usize>().max(first);

@@ -7,20 +7,20 @@ use crate::compute::protocol::{StudyJob, Topic};
 use crate::compute::robot_study::RobotStudy;
 use crate::study::Answer;
 
-/// A batch is about so much work, in s: holding and cancelling act after one or two of them.
+/// A batch takes about this time, in s. Holding and cancelling act after one or two batches.
 const BATCH: f64 = 0.010;
-/// Places in a batch at most.
+/// The most places in a batch.
 const MOST_PLACES: usize = 64;
-/// A map's first picture comes before all else until it has taken each worker so long, in s.
+/// A map's first picture comes before all else until it has taken this time of each worker, in s.
 const COARSE_TIME: f64 = 0.3;
-/// A worker that has not answered for so long, in s, is lost: this at least, more where places are slow …
+/// The least silence after which a worker is lost, in s. It is longer where places are slow, and doubles each time that the
+/// same place has lost a worker.
 const PATIENCE: f64 = 4.0;
-/// … which is so many times what the slowest place took …
+/// Once places have been answered: this multiple of the slowest place's time.
 const SLOWEST: f64 = 50.0;
-/// … and, as long as no place has been answered, what a heavy place may take, but at most this. Twice as long for each
-/// time that the same place has lost a worker.
+/// As long as no place has been answered: in proportion to the weight of the places, but at most this, in s.
 const MOST_PATIENCE: f64 = 60.0;
-/// A place that has lost so many workers is not tried again.
+/// A place that has lost this number of workers is not tried again.
 const MOST_LOSSES: i32 = 3;
 
 /// A study at work. Inside, places go by their rank in the study's order.
@@ -38,9 +38,9 @@ pub struct RunningStudy {
     waiting: BTreeSet<usize>,
     /// Workers lost by a place.
     losses: BTreeMap<usize, i32>,
-    /// What its places have taken, in s.
+    /// The time that its places have taken, in s.
     spent: f64,
-    /// No place took longer per weight, in s; 0 as long as nothing is known.
+    /// The longest time that a place has taken per weight, in s; 0 as long as no place is answered.
     slowest: f64,
 }
 
@@ -85,12 +85,13 @@ impl RunningStudy {
         self.order.len()
     }
 
-    /// How many places nobody is at.
+    /// How many places no worker is at.
     pub fn waiting(&self) -> usize {
         self.waiting.len()
     }
 
-    /// What comes first; `None` where nothing waits. A map's first picture, then what is small, then the map's details.
+    /// The study's rank among the running ones, 0 first: a map's first picture, then other studies, then the map's details.
+    /// `None` where no place waits.
     pub fn level(&self, workers: usize) -> Option<u8> {
         let coarse = *self.waiting.first()? < self.places.coarse();
         Some(match Topic::of(&self.job.study) {

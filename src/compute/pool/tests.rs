@@ -42,7 +42,7 @@ struct Rehearsal {
     clock: Duration,
     inboxes: BTreeMap<WorkerId, Vec<Task>>,
     stopped: Vec<WorkerId>,
-    /// Workers that have been started; without a stage direction they are ready at once.
+    /// Workers that have been started; they are ready at once unless `start` is false.
     starts: Vec<WorkerId>,
     start: bool,
 }
@@ -100,7 +100,7 @@ impl Rehearsal {
         })
     }
 
-    /// A worker answers the first places of its batch, in so many seconds.
+    /// A worker answers the first places of its batch in a number of seconds.
     fn answer(&mut self, worker: WorkerId, places: usize, seconds: f64) {
         let batch = self.at(worker).expect("a batch");
         if let Some(inbox) = self.inboxes.get_mut(&worker) {
@@ -112,7 +112,7 @@ impl Rehearsal {
         self.go_on();
     }
 
-    /// All workers answer until nothing is left to do, each place in so many seconds; gives the batches in their order.
+    /// All workers answer until nothing is left to do, each place in a number of seconds. Gives the batches in their order.
     fn finish(&mut self, seconds: f64) -> Vec<Batch> {
         let mut done = Vec::new();
         while let Some((worker, batch)) = self.inboxes.keys().find_map(|&worker| Some((worker, self.at(worker)?))) {

@@ -12,7 +12,7 @@ use super::scheduler::{Scheduler, WorkerId};
 use crate::compute::link::{Heard, Link};
 use crate::compute::protocol::{Incoming, Outgoing, Task};
 
-/// While studies are at work, lost workers are looked for so often, in ms, whether the page draws or not.
+/// While studies are at work, lost workers are looked for at this interval, in ms, whether the page draws or not.
 const BEAT: i32 = 250;
 
 /// What the page and the listeners to its workers share. A worker that has answered gets its next places at once.
