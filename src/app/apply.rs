@@ -7,6 +7,7 @@ use super::files::{self, Clip};
 use super::notices::About;
 use super::pinned::Pinned;
 use super::state::{Document, Page, Plot};
+use super::studies::Owner;
 use super::{Command, Tautline, fields, number};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
@@ -79,12 +80,12 @@ impl Tautline {
             Command::Check(index) => self.submit(&Request::Check(index)),
             Command::StopStudy(topic) => {
                 let order = self.present.studies.stop(topic);
-                self.carry_out(order);
+                self.pool.carry_out(Owner::Present, order);
                 self.notices.succeed(About::Action);
             }
             Command::ResumeStudy(topic) => {
                 let order = self.present.studies.resume(topic);
-                self.carry_out(order);
+                self.pool.carry_out(Owner::Present, order);
                 self.notices.succeed(About::Action);
             }
             Command::Done(text) => {
@@ -101,7 +102,7 @@ impl Tautline {
     /// Lets the pinned design go, with whatever is being computed for it.
     pub(super) fn unpin(&mut self) {
         let orders = self.present.pinned.take().map(Pinned::release);
-        self.carry_out(orders.into_iter().flatten());
+        self.pool.carry_out(Owner::Pinned, orders.into_iter().flatten());
     }
 
     pub(super) fn complain(&mut self, text: String) {

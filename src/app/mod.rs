@@ -59,7 +59,7 @@ use persist::{Keeper, Keeping, Kept};
 use pinned::Pinned;
 use screen::Screen;
 use state::{Document, Session, UiState};
-use studies::{Joined, Order, Studies};
+use studies::{Joined, Owner, SharedPool, Studies};
 
 use crate::compute::Pool;
 use crate::compute::protocol::{Reply, Request, Revision, Topic, Update, Which};
@@ -85,7 +85,7 @@ pub struct Tautline {
     session: Session,
     screen: Screen,
     engine: Engine,
-    pool: Pool,
+    pool: SharedPool,
     files: Files,
     kept: Kept,
     notices: Notices,
@@ -160,7 +160,7 @@ impl Tautline {
             session: Session::default(),
             screen: Screen::default(),
             engine: Engine::new(context),
-            pool,
+            pool: SharedPool::new(pool),
             files: Files::new(context),
             kept: Kept { keeper: Keeper::new(&storages), own },
             notices,
@@ -218,7 +218,7 @@ impl Tautline {
 
     /// The topics of which a study is at work, of the present design or the pinned one.
     pub fn at_work(&self) -> Vec<Topic> {
-        studies::TOPICS.into_iter().filter(|topic| self.pool.progress(*topic).is_some()).collect()
+        studies::TOPICS.into_iter().filter(|topic| self.pool.is_at_work(*topic)).collect()
     }
 
     /// Has the document analysed as it is now.
@@ -244,15 +244,6 @@ impl Tautline {
         self.engine.submit(request, &mut self.present.answers);
     }
 
-    fn carry_out(&mut self, orders: impl IntoIterator<Item = Order>) {
-        for order in orders {
-            match order {
-                Order::Want(job) => self.pool.want(job),
-                Order::Cancel(topic) => self.pool.cancel(topic),
-            }
-        }
-    }
-
     /// Asks for the studies of what is open and takes in what is known of them.
     fn study_on(&mut self) {
         let critical =
@@ -264,20 +255,23 @@ impl Tautline {
         let idle = !self.present.studies.is_working();
         // The pool has one study of each topic: the pinned design's go first, to make room for the present one's.
         let for_pinned = self.present.pinned.as_mut().map(|pinned| pinned.want(idle, &self.state, plot));
-        self.carry_out(for_pinned.into_iter().flatten().chain(orders));
+        self.pool.carry_out(Owner::Pinned, for_pinned.into_iter().flatten());
+        self.pool.carry_out(Owner::Present, orders);
         let diagram =
             (plot == Some(state::Plot::Campbell)).then(|| self.present.studies.shown(Topic::Campbell)).flatten();
         let order = self.present.joined.want(diagram.map(|shown| shown.known), self.state.campbell_hz);
-        self.carry_out(order);
+        self.pool.carry_out(Owner::Present, order);
         // Both want all of the machine; who drags must not wait. Between two poses the studies go on, so that the line
         // follows the drag.
         self.pool.hold(matches!(self.present.answers.critical(), CriticalState::Recomputing { .. }));
-        for news in self.pool.poll() {
-            if let Some(pinned) = &mut self.present.pinned {
-                pinned.take(news.clone());
+        for (owner, news) in self.pool.poll() {
+            match owner {
+                Owner::Present => {
+                    self.present.joined.take(&news);
+                    self.present.studies.take(news);
+                }
+                Owner::Pinned => self.present.pinned.iter_mut().for_each(|pinned| pinned.take(news.clone())),
             }
-            self.present.joined.take(&news);
-            self.present.studies.take(news);
         }
         if let Some(Err(reason)) = self.present.pinned.as_mut().map(Pinned::go_on) {
             self.unpin();

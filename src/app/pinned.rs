@@ -44,7 +44,7 @@ impl Pinned {
         if answers.pose_failed() {
             return Err(NO_ANSWER.into());
         }
-        let mut pinned = Self { scenario, answers: answers.clone(), studies: Studies::apart(), engine: None };
+        let mut pinned = Self { scenario, answers: answers.clone(), studies: Studies::default(), engine: None };
         if !answers.all_current() {
             let mut engine = Compute::start(wake)?;
             pinned.answers = Answers::default();

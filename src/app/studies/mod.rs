@@ -5,9 +5,11 @@
 //! on ([`Wish`]). Until a first picture of the new one is there, the last one stays on show and is marked as old.
 
 mod joined;
+mod shared;
 mod wish;
 
 pub use joined::Joined;
+pub use shared::{Owner, SharedPool};
 pub use wish::{Wish, wanted};
 
 use std::collections::VecDeque;
@@ -52,7 +54,7 @@ pub struct Known {
     pub wish: Wish,
     /// The answers by place.
     pub places: Vec<Option<Answer>>,
-    /// Changes with every answer, and is never the same for two studies.
+    /// Changes with every answer, and is never the same for two studies of one owner.
     pub version: (Revision, usize),
 }
 
@@ -122,11 +124,6 @@ fn place(topic: Topic) -> usize {
 }
 
 impl Studies {
-    /// Studies that share a pool with others: their revisions are never the same.
-    pub fn apart() -> Self {
-        Self { revision: 1 << 40, ..Self::default() }
-    }
-
     /// Notes what is wanted now, at most one study of each topic, and says what is to be done for it.
     pub fn want(&mut self, mut wishes: Vec<Wish>) -> Vec<Order> {
         let mut orders = Vec::new();
