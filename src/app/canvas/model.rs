@@ -47,7 +47,7 @@ impl Scene {
     pub fn new(scenario: &Scenario, answers: &Answers, playback: &Playback) -> Self {
         let frame = frame(scenario);
         let width = frame.size().x;
-        let critical = answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.cable - 1);
+        let critical = answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.cable);
         let marked = answers.failed().map_or(critical, |failed| failed.cable);
         let cables: Vec<CableLine> = scenario
             .cables
