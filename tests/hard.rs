@@ -164,14 +164,8 @@ fn judge(robot: &Robot, motion: &Motion, tally: &mut Tally) {
             Verdict::Wrong(why) => panic!("spectrum by {:?}: {why}", spectrum.solver()),
         },
     }
-    let mut search = CriticalSearch::new(LIMIT);
-    let outcome = loop {
-        match search.advance(&drawn.local.vibration) {
-            Ok(None) => {}
-            Ok(Some(outcome)) => break Ok(outcome),
-            Err(error) => break Err(error),
-        }
-    };
+    let search = CriticalSearch::new(LIMIT);
+    let outcome = search.run(&drawn.local.vibration);
     let way = search.doubt().map_or("by structure".to_owned(), |doubt| format!("by scan, {doubt:?}"));
     match outcome {
         Err(error) => {

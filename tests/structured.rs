@@ -207,14 +207,8 @@ const ANSWERED: u64 = 300;
 fn no_damped_robot_is_left_unknown() {
     let seeds = if is_full_run() { seeds() } else { (0..ANSWERED).collect() };
     let verdicts = for_each_robot(&seeds, |robot, local| {
-        let mut search = CriticalSearch::new(LIMIT);
-        let answered = loop {
-            match search.advance(&local.vibration) {
-                Ok(None) => {}
-                Ok(Some(_)) => break true,
-                Err(NotConverged) => break false,
-            }
-        };
+        let search = CriticalSearch::new(LIMIT);
+        let answered = search.run(&local.vibration).is_ok();
         (answered, search.doubt(), robot.damping)
     });
     let unknown: Vec<_> = verdicts.iter().filter(|(_, verdict)| !verdict.0).collect();
@@ -236,17 +230,12 @@ fn a_divergence_does_not_need_a_scan() {
         let robot = Robot::new(spec).expect("physical");
         let motion = Motion::new([0.0, 0.0], [1.0, 0.0], 0.0).expect("a motion");
         let local = LocalProblem::new(&robot, &motion).expect("statics");
-        let mut search = CriticalSearch::new(40.0);
-        let outcome = loop {
-            match search.advance(&local.vibration) {
-                Ok(None) => {}
-                ended => break ended,
-            }
-        };
-        let Ok(Some(Outcome::Found(critical))) = outcome else { panic!("{damping:?}: {outcome:?}") };
+        let search = CriticalSearch::new(40.0);
+        let outcome = search.run(&local.vibration);
+        let Ok(Outcome::Found(critical)) = outcome else { panic!("{damping:?}: {outcome:?}") };
         assert_eq!(
             (critical.kind, search.doubt(), search.samples()),
-            (Instability::Divergence, None, &[][..]),
+            (Instability::Divergence, None, Vec::new()),
             "{damping:?}"
         );
         assert!((critical.speed - 11.939_098_568).abs() < 1e-9, "{damping:?}: {critical:?}");
@@ -296,14 +285,8 @@ fn what_is_left_to_the_dense_solver_and_to_a_scan() {
         // As a scan and a curve of growth rates do, and each by itself.
         let following = SPEEDS.map(|speed| spectra.spectrum(&local.vibration, speed).map(|s| s.solver()));
         let single = SPEEDS.map(|speed| local.spectrum(speed).map(|s| s.solver()));
-        let mut search = CriticalSearch::new(LIMIT);
-        let outcome = loop {
-            match search.advance(&local.vibration) {
-                Ok(None) => {}
-                Ok(Some(outcome)) => break Some(matches!(outcome, Outcome::Found(_))),
-                Err(_) => break None,
-            }
-        };
+        let search = CriticalSearch::new(LIMIT);
+        let outcome = search.run(&local.vibration).ok().map(|outcome| matches!(outcome, Outcome::Found(_)));
         (following, single, outcome, search.doubt(), robot.damping)
     });
     for (what, spectra) in [

@@ -127,12 +127,9 @@ proptest! {
 
 /// The search for the critical speed up to `limit` with the growth rates on its way.
 fn search(local: &LocalProblem, limit: f64) -> (Outcome, Vec<Sample>) {
-    let mut search = CriticalSearch::by(Method::Dense, limit);
-    loop {
-        if let Some(outcome) = search.advance(&local.vibration).expect("eigenvalues") {
-            return (outcome, search.samples().to_vec());
-        }
-    }
+    let search = CriticalSearch::by(Method::Dense, limit);
+    let outcome = search.run(&local.vibration).expect("eigenvalues");
+    (outcome, search.samples())
 }
 
 proptest! {

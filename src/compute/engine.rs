@@ -22,7 +22,7 @@ use crate::robot::{Motion, Robot, Vec2};
 use crate::scenario::report::{StatusReport, sentence};
 use crate::scenario::{Report, Scenario};
 use crate::stability::steps::step;
-use crate::stability::{self, CriticalSearch, ModeValue, Outcome, Polarisation, Spectrum, Steps};
+use crate::stability::{self, CriticalSearch, ModeValue, NotConverged, Outcome, Polarisation, Spectrum, Steps};
 use crate::study::validation::CHECKS;
 use crate::study::{LocalProblem, Sensitivity, sensitivities_in_steps};
 
@@ -101,7 +101,8 @@ enum Phase {
     /// The slowest ones first.
     Slowest(Steps<Vec<ModeRow>>),
     Searching {
-        search: CriticalSearch,
+        search: Arc<CriticalSearch>,
+        steps: Steps<Result<Outcome, NotConverged>>,
         since: Instant,
     },
     /// The rest of the modes.
@@ -159,7 +160,7 @@ impl Engine {
         }
         let overtaken = self.waiting.is_some();
         let Some(running) = self.running.as_mut() else {
-            self.running = Some(self.waiting.take()?);
+            self.running = Some(self.waiting.take()?.searching());
             return Some(Vec::new());
         };
         let finished = match &running.phase {
@@ -172,9 +173,7 @@ impl Engine {
             Phase::Done => true,
         };
         if finished {
-            let mut next = self.waiting.take()?;
-            next.phase = Phase::searching(next.limit);
-            self.running = Some(next);
+            self.running = Some(self.waiting.take()?.searching());
             return Some(Vec::new());
         }
         let slice = running.slice();
@@ -212,12 +211,6 @@ impl Engine {
         let replies = pose.serve();
         self.waiting = self.first.take();
         replies
-    }
-}
-
-impl Phase {
-    fn searching(limit: f64) -> Self {
-        Self::Searching { search: CriticalSearch::new(limit), since: Instant::now() }
     }
 }
 
@@ -386,10 +379,16 @@ impl Pose {
         if self.choice.which != Which::Critical {
             replies.extend(self.shape());
         }
-        if matches!(self.phase, Phase::Prompt | Phase::Slowest(_)) {
-            self.phase = Phase::searching(self.limit);
-        }
         replies
+    }
+
+    /// The same pose, whose search begins.
+    fn searching(mut self) -> Self {
+        let search = Arc::new(CriticalSearch::new(self.limit));
+        let (watched, local) = (Arc::clone(&search), Arc::clone(&self.local));
+        let steps = Steps::new(async move { search.run_in_steps(&local.vibration).await });
+        self.stage = Stage::Searching { search: watched, steps, since: Instant::now() };
+        self
     }
 
     fn mode(&self, speed: f64, eigenvalue: Complex<f64>) -> stability::Mode {
@@ -467,13 +466,10 @@ impl Pose {
     fn step(&mut self, begun: Instant) -> Slice {
         match &mut self.phase {
             Phase::Done | Phase::Prompt | Phase::Slowest(_) => Vec::new(),
-            Phase::Searching { search, .. } => {
+            Phase::Searching { search, steps, .. } => {
+                let Some(outcome) = steps.advance() else { return Vec::new() };
                 // Where only the search fails, the pose with its eigenvalues stands, and so do curve and modes.
-                let outcome = match search.advance(&self.local.vibration) {
-                    Ok(None) => return Vec::new(),
-                    Ok(Some(outcome)) => Ok(outcome),
-                    Err(error) => Err(sentence(&error.to_string())),
-                };
+                let outcome = outcome.map_err(|error| sentence(&error.to_string()));
                 let points: Vec<[f64; 2]> = search.samples().iter().map(|s| [s.speed, s.growth_rate]).collect();
                 let scanned = points.last().map_or(0.0, |point| point[0]);
                 let mut replies = vec![self.reply(Update::Critical(SearchEnd {

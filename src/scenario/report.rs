@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError, WaveLimit};
 use crate::robot::{Motion, Robot};
+use crate::stability::steps::finish_watched;
 use crate::stability::{
     Critical, CriticalSearch, Eigenproblem, Instability, Method, NotConverged, Spectrum, unstable_eigenvalues,
 };
@@ -310,14 +311,10 @@ impl Report {
     }
 
     fn search(&mut self, local: &LocalProblem, limit: f64, method: Method, mut watch: impl FnMut(f64)) {
-        let mut search = CriticalSearch::by(method, limit);
-        loop {
-            watch(search.searched_up_to());
-            match search.advance(&local.vibration) {
-                Ok(None) => {}
-                Ok(Some(outcome)) => return self.set_critical(outcome.critical(), limit),
-                Err(error) => return self.set_failed(sentence(&error.to_string()), search.searched_up_to()),
-            }
+        let search = CriticalSearch::by(method, limit);
+        match finish_watched(search.run_in_steps(&local.vibration), || watch(search.searched_up_to())) {
+            Ok(outcome) => self.set_critical(outcome.critical(), limit),
+            Err(error) => self.set_failed(sentence(&error.to_string()), search.searched_up_to()),
         }
     }
 }

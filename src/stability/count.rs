@@ -14,6 +14,7 @@ use super::bounds::Bounds;
 use super::characteristic::Characteristic;
 use crate::mechanics::Vibration;
 use crate::stability::Spectra;
+use crate::stability::steps::{finish, step};
 
 type C64 = Complex<f64>;
 
@@ -43,7 +44,8 @@ const ROUNDING: f64 = 1e-3;
 pub fn unstable_eigenvalues(vibration: &Vibration, speed: f64) -> Option<usize> {
     let bounds = Bounds::new(vibration)?;
     let axis = Axis::new(Characteristic::new(vibration));
-    let distinct = Counter::new(bounds, axis).count(vibration, speed).filter(|count| count.certain)?.unstable;
+    let count = finish(Counter::new(bounds, axis).count(vibration, speed))?;
+    let distinct = count.certain.then_some(count.unstable)?;
     Some(if vibration.isotropic { 2 * distinct } else { distinct })
 }
 
@@ -72,11 +74,12 @@ impl Counter {
         Self { bounds, axis, spectra: None }
     }
 
-    /// The count at a speed (m/s) of the same `vibration`; `None` where it cannot be told.
-    pub(super) fn count(&mut self, vibration: &Vibration, speed: f64) -> Option<Count> {
+    /// The count at a speed (m/s) of the same `vibration`, in [steps](super::steps) of one or two evaluations of det Q;
+    /// `None` where it cannot be told.
+    pub(super) async fn count(&mut self, vibration: &Vibration, speed: f64) -> Option<Count> {
         let radius = self.bounds.largest_unstable(speed);
         if !self.bounds.is_sharp(radius) {
-            return by_argument(&mut self.axis, &self.bounds, speed, radius);
+            return by_argument(&mut self.axis, &self.bounds, speed, radius).await;
         }
         // All modes of the mesh may be near the axis, at distances far below those between them: that many turns of D are
         // not followed safely. But there are only so many eigenvalues.
@@ -84,7 +87,7 @@ impl Counter {
             Some(spectra) => spectra,
             none => none.insert(Spectra::new(vibration).ok()?),
         };
-        let spectrum = spectra.spectrum(vibration, speed).ok()?;
+        let spectrum = spectra.spectrum_in_steps(vibration, speed).await.ok()?;
         let all = || spectrum.modes().map(|mode| mode.eigenvalue);
         let unstable = all().filter(|l| l.re > 0.0).map(|l| if l.im > 0.0 { 2 } else { 1 }).sum();
         let certain = all().all(|l| l.re.abs() > spectrum.rounding(l));
@@ -93,7 +96,7 @@ impl Counter {
 }
 
 /// The count by the argument principle, nothing beyond `radius` (1/s) being unstable.
-fn by_argument(axis: &mut Axis, bounds: &Bounds, speed: f64, radius: f64) -> Option<Count> {
+async fn by_argument(axis: &mut Axis, bounds: &Bounds, speed: f64, radius: f64) -> Option<Count> {
     let effort = LEAST_EFFORT.max(EFFORT_EACH * bounds.modes());
     let careful = bounds.may_be_sharp();
     let mut path = Path { axis, speed, careful, evaluations: 0, effort, nearest: [f64::INFINITY, 0.0] };
@@ -104,15 +107,17 @@ fn by_argument(axis: &mut Axis, bounds: &Bounds, speed: f64, radius: f64) -> Opt
             return None;
         }
         let next = path.at(C64::new(0.0, omega));
-        along_axis += path.turn(before, next, HALVINGS)?;
+        along_axis += path.turn(before, next, HALVINGS).await?;
         before = next;
+        step().await;
     }
     let nearest = path.nearest[1];
     let mut arc = 0.0;
-    for step in (0..FIRST_STEPS).rev() {
-        let next = path.at(C64::from_polar(radius, FRAC_PI_2 * f64::from(step) / f64::from(FIRST_STEPS)));
-        arc -= path.turn(before, next, HALVINGS)?;
+    for k in (0..FIRST_STEPS).rev() {
+        let next = path.at(C64::from_polar(radius, FRAC_PI_2 * f64::from(k) / f64::from(FIRST_STEPS)));
+        arc -= path.turn(before, next, HALVINGS).await?;
         before = next;
+        step().await;
     }
     let turns = (arc - along_axis) / PI;
     let whole = turns.round();
@@ -155,7 +160,7 @@ impl Path<'_> {
 
     /// The change of arg D along the chord between two points, where that is called for once both parts of it agree with the
     /// whole.
-    fn turn(&mut self, from: Point, to: Point, halvings: u32) -> Option<f64> {
+    async fn turn(&mut self, from: Point, to: Point, halvings: u32) -> Option<f64> {
         let free = simple_turn(from, to);
         if free.is_some() && !self.careful {
             return free;
@@ -167,7 +172,9 @@ impl Path<'_> {
         if let (Some(_), Some(before), Some(after)) = (free, simple_turn(from, middle), simple_turn(middle, to)) {
             return Some(before + after);
         }
-        Some(self.turn(from, middle, halvings - 1)? + self.turn(middle, to, halvings - 1)?)
+        step().await;
+        let before = Box::pin(self.turn(from, middle, halvings - 1)).await?;
+        Some(before + Box::pin(self.turn(middle, to, halvings - 1)).await?)
     }
 }
 

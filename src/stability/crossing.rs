@@ -15,6 +15,7 @@ use super::bounds::Bounds;
 use super::characteristic::Characteristic;
 use super::count::{Count, Counter, change};
 use crate::mechanics::Vibration;
+use crate::stability::steps::step;
 
 type C64 = Complex<f64>;
 
@@ -101,7 +102,6 @@ impl FirstCrossing {
         let start = bounds.lowest_speed(limit).max(start).min(limit);
         let plane = Plane {
             known: HashMap::new(),
-            strip: None,
             trend: Trend::default(),
             zeros: Vec::new(),
             evaluations: 0,
@@ -113,8 +113,8 @@ impl FirstCrossing {
     }
 
     /// Whether nothing is unstable where the search begins.
-    pub(super) fn begins_stable(&mut self, vibration: &Vibration) -> bool {
-        self.plane.counter.count(vibration, self.start).is_some_and(|count| count.certain && count.unstable == 0)
+    pub(super) async fn begins_stable(&mut self, vibration: &Vibration) -> bool {
+        self.plane.is_stable(vibration, self.start).await
     }
 
     /// The speed (m/s) up to which nothing crosses.
@@ -122,45 +122,41 @@ impl FirstCrossing {
         self.from
     }
 
-    /// Searches the next cells of a strip; `None` where nothing crosses in it, or not all of it has been searched.
+    /// Searches the next strip, in [steps](super::steps) of a cell or less; `None` where nothing crosses in it.
     ///
     /// # Errors
     /// [`Doubt`] where that cannot be told.
-    pub(super) fn advance(&mut self, vibration: &Vibration) -> Result<Option<Search>, Doubt> {
+    pub(super) async fn search_next_strip(&mut self, vibration: &Vibration) -> Result<Option<Search>, Doubt> {
         let (plane, from, limit) = (&mut self.plane, self.from, self.limit);
         if from >= limit {
-            return Ok(Some(match plane.counter.count(vibration, limit) {
-                Some(Count { unstable: 0, certain: true, .. }) => Search::NoneUpTo,
-                _ => plane.by_counting(vibration, self.start, limit)?.unwrap_or(Search::NoneUpTo),
-            }));
+            if plane.is_stable(vibration, limit).await {
+                return Ok(Some(Search::NoneUpTo));
+            }
+            let found = plane.by_counting(vibration, self.start, limit).await?;
+            return Ok(Some(found.unwrap_or(Search::NoneUpTo)));
         }
         let least = STRIP.max(STRIP_PART * from);
         let top = plane.counter.bounds.highest_frequency(from + least);
         let height = (LARGEST_MOVE * plane.counter.bounds.speed_step(top, from))
             .clamp(least, LARGEST_STRIP.max(2.0 * STRIP_PART * from));
         let to = limit.min(from + height);
-        let searched = match plane.search_strip(from, to) {
-            Ok(false) => return Ok(None),
-            Ok(true) => Ok(()),
-            Err(unsettled) => Err(unsettled),
-        };
+        let searched = plane.search_strip(from, to).await;
         let first = plane.first_from(from).copied().filter(|zero| zero.speed <= to);
         let missed = plane.zeros.iter().any(|zero| zero.speed > 0.0 && zero.speed < from);
         let found = match (searched, first) {
             (Ok(()), Some(zero)) => {
                 // What crosses first crosses to the right: d Re λ/dv = Im b. Below it nothing is unstable.
                 let below = (zero.speed - BELOW * STRIP).max(0.5 * zero.speed);
-                let stable =
-                    plane.counter.count(vibration, below).is_some_and(|count| count.certain && count.unstable == 0);
+                let stable = plane.is_stable(vibration, below).await;
                 if zero.slope.im > 0.0 && stable {
                     Some(Search::Crossing { omega: zero.omega, speed: zero.speed })
                 } else {
-                    plane.by_counting(vibration, self.start, to)?
+                    plane.by_counting(vibration, self.start, to).await?
                 }
             }
             (Ok(()), None) if !missed => None,
-            (Ok(()), None) => plane.by_counting(vibration, self.start, to)?,
-            (Err(Unsettled), _) => plane.by_counting(vibration, from, to)?,
+            (Ok(()), None) => plane.by_counting(vibration, self.start, to).await?,
+            (Err(Unsettled), _) => plane.by_counting(vibration, from, to).await?,
         };
         self.from = to;
         Ok(found)
@@ -198,14 +194,6 @@ impl Zero {
         let image = (mirrored * v + (omega + self.omega), mirrored);
         std::iter::once(own).chain((self.omega != 0.0).then_some(image))
     }
-}
-
-/// How far the search of a strip has come: up to a frequency, where its last corners are, of the highest one.
-#[derive(Clone, Copy, Debug)]
-struct Strip {
-    omega: f64,
-    top: f64,
-    left: [Corner; 2],
 }
 
 /// Four corners, the lower two first.
@@ -248,8 +236,6 @@ struct Plane {
     counter: Counter,
     /// The corners of the strip, which neighbouring cells share, by the bits of ω and v.
     known: HashMap<[u64; 2], Corner>,
-    /// The strip that is being searched.
-    strip: Option<Strip>,
     trend: Trend,
     zeros: Vec<Zero>,
     evaluations: usize,
@@ -266,41 +252,38 @@ impl Plane {
         self.zeros.iter().filter(|zero| zero.speed >= from).min_by(|a, b| a.speed.total_cmp(&b.speed))
     }
 
-    /// Finds all zeros below the first one between two speeds.
-    /// One column of cells of it at a time: whether these were all.
-    fn search_strip(&mut self, from: f64, to: f64) -> Result<bool, Unsettled> {
-        let mut strip = match self.strip.take() {
-            Some(strip) => strip,
-            None => self.begin_strip(from, to),
-        };
-        if strip.omega >= strip.top {
-            return Ok(true);
-        }
-        let bounds = &self.counter.bounds;
-        strip.omega += bounds.frequency_step(strip.omega, LARGEST_WIDTH).max(bounds.decay(strip.omega));
-        let (left, right) = (strip.left, [self.corner(strip.omega, from), self.corner(strip.omega, to)]);
-        self.search_cell(from, &mut Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] })?;
-        strip.left = right;
-        self.strip = Some(strip);
-        Ok(false)
+    /// Whether it is certain that nothing is unstable at a speed.
+    async fn is_stable(&mut self, vibration: &Vibration, speed: f64) -> bool {
+        let count = self.counter.count(vibration, speed).await;
+        count.is_some_and(|count| count.certain && count.unstable == 0)
     }
 
-    fn begin_strip(&mut self, from: f64, to: f64) -> Strip {
+    /// Finds all zeros below the first one between two speeds, one column of cells after the other.
+    async fn search_strip(&mut self, from: f64, to: f64) -> Result<(), Unsettled> {
         self.evaluations = 0;
         self.cell[1] = to - from;
         let mut top = self.counter.bounds.highest_frequency(to);
         self.follow_trend(from, to, top);
-        self.take_divergence(from, to);
+        self.take_divergence(from, to).await;
         if let Some(first) = self.first_from(from).filter(|zero| zero.speed < to) {
             top = self.counter.bounds.highest_frequency(first.speed);
         }
         self.eligible = self.counter.bounds.highest_frequency(from);
-        Strip { omega: 0.0, top, left: [self.corner(0.0, from), self.corner(0.0, to)] }
+        let mut omega = 0.0;
+        let mut left = [self.corner(omega, from), self.corner(omega, to)];
+        while omega < top {
+            let bounds = &self.counter.bounds;
+            omega += bounds.frequency_step(omega, LARGEST_WIDTH).max(bounds.decay(omega));
+            let right = [self.corner(omega, from), self.corner(omega, to)];
+            self.search_cell(from, Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] }).await?;
+            left = right;
+        }
+        Ok(())
     }
 
     /// Takes a divergence between two speeds in that shows by the sign of det (K + v² D), so that nothing above it has to
     /// be searched: at λ = 0 neither damping nor C have a part in Q, and D is real.
-    fn take_divergence(&mut self, from: f64, to: f64) {
+    async fn take_divergence(&mut self, from: f64, to: f64) {
         let negative = |log: C64| log.im.cos() < 0.0;
         let [before, after] = [from, to].map(|speed| {
             // The corner is wanted anyway; without zeros divided out it has the sign.
@@ -320,6 +303,7 @@ impl Plane {
                 break;
             }
             speed = next;
+            step().await;
         }
         if let Some(zero) = self.zero_at(0.0, speed) {
             self.zeros.push(zero);
@@ -327,10 +311,14 @@ impl Plane {
     }
 
     /// What is unstable at a speed, or a little below it where an eigenvalue is on the axis; with the speed.
-    fn count_near(&mut self, vibration: &Vibration, speed: f64) -> Result<(f64, Count), Doubt> {
-        let mut speeds = (0..TRIES).map(|k| speed - ASIDE * f64::from(k));
-        let mut certain = |speed: f64| self.counter.count(vibration, speed).filter(|count| count.certain);
-        speeds.find_map(|speed| Some((speed, certain(speed)?))).ok_or(Doubt::Count)
+    async fn count_near(&mut self, vibration: &Vibration, speed: f64) -> Result<(f64, Count), Doubt> {
+        for k in 0..TRIES {
+            let speed = speed - ASIDE * f64::from(k);
+            if let Some(count) = self.counter.count(vibration, speed).await.filter(|count| count.certain) {
+                return Ok((speed, count));
+            }
+        }
+        Err(Doubt::Count)
     }
 
     /// The first crossing between two speeds by counting what is unstable on the way; nothing is at the first one.
@@ -338,14 +326,14 @@ impl Plane {
     /// Cells get very small where many eigenvalues cross nearly together. A count does not, as long as it is not made
     /// where they cross. What becomes unstable and stable again between two counts is not seen, unless the plane has
     /// shown it.
-    fn by_counting(&mut self, vibration: &Vibration, from: f64, to: f64) -> Result<Option<Search>, Doubt> {
+    async fn by_counting(&mut self, vibration: &Vibration, from: f64, to: f64) -> Result<Option<Search>, Doubt> {
         let beyond = self.zeros.iter().map(|zero| zero.speed + BELOW * STRIP);
         let mut speeds: Vec<f64> = beyond.filter(|speed| (from..to).contains(speed)).collect();
         let steps = ((to - from) / COUNT_STEP.max(COUNT_PART * to)).ceil().max(1.0);
-        let mut step = 1.0;
-        while step <= steps {
-            speeds.push(from + (to - from) * step / steps);
-            step += 1.0;
+        let mut part = 1.0;
+        while part <= steps {
+            speeds.push(from + (to - from) * part / steps);
+            part += 1.0;
         }
         speeds.sort_by(f64::total_cmp);
         // The next strip begins anew.
@@ -353,9 +341,9 @@ impl Plane {
         self.known.clear();
         let mut stable = from;
         for speed in speeds {
-            let (speed, Count { unstable, nearest, .. }) = self.count_near(vibration, speed)?;
+            let (speed, Count { unstable, nearest, .. }) = self.count_near(vibration, speed).await?;
             if unstable > 0 {
-                return self.bisect(vibration, [stable, speed], nearest).map(Some);
+                return self.bisect(vibration, [stable, speed], nearest).await.map(Some);
             }
             stable = speed;
         }
@@ -363,7 +351,7 @@ impl Plane {
     }
 
     /// A crossing between a speed where nothing is unstable and one where something is, near the frequency `nearest`.
-    fn bisect(
+    async fn bisect(
         &mut self,
         vibration: &Vibration,
         [mut stable, mut unstable]: [f64; 2],
@@ -371,9 +359,15 @@ impl Plane {
     ) -> Result<Search, Doubt> {
         while unstable - stable > COUNTED_TO * unstable.max(1.0) {
             // Where it meets an eigenvalue on the axis there is no count, but beside.
-            let parts = [0.5, 0.4, 0.6].map(|part| stable + part * (unstable - stable));
-            let count = parts.into_iter().find_map(|speed| Some((speed, self.counter.count(vibration, speed)?)));
-            match count {
+            let mut counted = None;
+            for part in [0.5, 0.4, 0.6] {
+                let speed = stable + part * (unstable - stable);
+                counted = self.counter.count(vibration, speed).await.map(|count| (speed, count));
+                if counted.is_some() {
+                    break;
+                }
+            }
+            match counted {
                 Some((speed, Count { unstable: 0, .. })) => stable = speed,
                 Some((speed, count)) => (unstable, nearest) = (speed, count.nearest),
                 None if unstable - stable < POLISHED => break,
@@ -401,17 +395,30 @@ impl Plane {
         Search::Crossing { omega: if omega <= SAME * self.cell[0] { 0.0 } else { omega }, speed }
     }
 
-    /// The same in one cell of the strip.
-    fn search_cell(&mut self, from: f64, cell: &mut Cell) -> Result<(), Unsettled> {
+    /// The same in one cell of the strip; each part of it that is looked at is a step.
+    async fn search_cell(&mut self, from: f64, cell: Cell) -> Result<(), Unsettled> {
+        // The last one is the next: the lower or left half of a cell comes before the other.
+        let mut open = vec![cell];
+        while let Some(mut cell) = open.pop() {
+            if let Some(halves) = self.halves_to_search(from, &mut cell)? {
+                open.extend(halves.into_iter().rev());
+            }
+            step().await;
+        }
+        Ok(())
+    }
+
+    /// Finds what can be found in a cell as it is; its halves, where they have to be searched by themselves.
+    fn halves_to_search(&mut self, from: f64, cell: &mut Cell) -> Result<Option<[Cell; 2]>, Unsettled> {
         loop {
             let after_the_first = self.first_from(from).is_some_and(|first| first.speed <= cell.lower[0].speed);
             if after_the_first || !self.is_eligible(cell) {
-                return Ok(());
+                return Ok(None);
             }
             cell.lower.iter_mut().chain(&mut cell.upper).for_each(|corner| self.divide_zeros_out(corner));
             let changes = self.changes(cell);
             if changes[0] <= 1.0 && changes[1] <= 1.0 {
-                return Ok(());
+                return Ok(None);
             }
             if let Some(zero) = self.zero_in(cell) {
                 self.zeros.push(zero);
@@ -422,9 +429,7 @@ impl Plane {
             if vanishing || self.evaluations > LEAST_EFFORT.max(EFFORT_EACH * self.counter.bounds.modes()) {
                 return Err(Unsettled);
             }
-            let [mut first, mut second] = self.halves(cell, changes);
-            self.search_cell(from, &mut first)?;
-            return self.search_cell(from, &mut second);
+            return Ok(Some(self.halves(cell, changes)));
         }
     }
 
@@ -584,6 +589,7 @@ mod tests {
     use super::*;
     use crate::robot::{Motion, paper};
     use crate::stability::Eigenproblem;
+    use crate::stability::steps::finish;
     use crate::study::LocalProblem;
 
     fn local() -> LocalProblem {
@@ -597,7 +603,6 @@ mod tests {
                 Axis::new(Characteristic::new(&local.vibration)),
             ),
             known: HashMap::new(),
-            strip: None,
             trend: Trend::default(),
             zeros: Vec::new(),
             evaluations: 0,
@@ -610,7 +615,7 @@ mod tests {
     fn crossing(local: &LocalProblem) -> [f64; 2] {
         let mut search = FirstCrossing::new(&local.vibration, 0.0, 20.0).unwrap();
         loop {
-            match search.advance(&local.vibration).unwrap() {
+            match finish(search.search_next_strip(&local.vibration)).unwrap() {
                 None => {}
                 Some(Search::Crossing { omega, speed }) => return [omega, speed],
                 Some(Search::NoneUpTo) => panic!("no crossing"),

@@ -8,6 +8,7 @@ use nalgebra::Complex;
 
 use crate::mechanics::Vibration;
 use crate::stability::modes::responsible_cable;
+use crate::stability::steps::step;
 use crate::stability::{Critical, Instability, Mode, NotConverged, Polarisation, Spectra, mode};
 
 /// Growth below this part of what it is the sum of is none: modes of which paying out takes what reeling in gives, or
@@ -16,8 +17,8 @@ const NONE: f64 = 1e-9;
 /// Frequencies are apart when they differ by so many times what they are known to.
 const APART: f64 = 1e3;
 /// An eigenvalue is known to this part of the largest frequency at best.
-const ROUNDING: f64 = 1e-15;
-/// Modes that are looked at in one go.
+const ROUNDING_OF_EIGENVALUES: f64 = 1e-15;
+/// Modes are looked at in groups of so many, the group with the highest frequencies first.
 const AT_ONCE: usize = 16;
 
 /// What the modes at rest tell.
@@ -31,58 +32,41 @@ pub(super) enum AtRest {
     Neutral,
 }
 
-/// A look at all modes at rest of a problem without damping.
-#[derive(Debug)]
-pub(super) struct FromRest {
-    /// Frequencies in rad/s that are still to be looked at, those of simple eigenvalues.
-    open: Vec<f64>,
-    /// The fastest growth so far, in 1/s per m/s, and its mode.
-    fastest: Option<(f64, Critical)>,
-    decays: bool,
-}
-
-impl FromRest {
-    /// Finds the frequencies.
-    ///
-    /// # Errors
-    /// [`NotConverged`] where they cannot be had.
-    pub(super) fn new(vibration: &Vibration) -> Result<Self, NotConverged> {
-        let mut spectra = Spectra::new(vibration)?;
-        let spectrum = spectra.spectrum(vibration, 0.0)?;
-        let known = |omega: f64| spectrum.rounding(Complex::new(0.0, omega)) + ROUNDING * spectra.scale();
-        let all: Vec<f64> = spectrum.modes().map(|mode| mode.eigenvalue.im).collect();
-        let apart = |a: f64, b: f64| b - a > APART * known(b);
-        let simple = |&i: &usize| {
-            (i == 0 || apart(all[i - 1], all[i])) && all.get(i + 1).is_none_or(|&next| apart(all[i], next))
-        };
-        let open: Vec<f64> = (0..all.len()).filter(simple).map(|i| all[i]).collect();
-        let decays = open.len() == all.len();
-        Ok(Self { open, fastest: None, decays })
-    }
-
-    /// Looks at some more modes; `None` while there are others.
-    pub(super) fn advance(&mut self, vibration: &Vibration) -> Option<AtRest> {
-        for omega in self.open.split_off(self.open.len().saturating_sub(AT_ONCE)) {
-            let eigenvalue = Complex::new(0.0, omega);
-            let mode = mode(vibration, 0.0, eigenvalue, Polarisation::default());
-            let [growth, size] = growth(vibration, &mode);
-            self.decays &= growth < -NONE * size;
-            // Equal but for rounding, the first one counts.
-            let faster = self.fastest.as_ref().is_none_or(|(fastest, _)| growth > *fastest + NONE * size);
-            if growth > NONE * size && faster {
-                let cable = responsible_cable(vibration, &mode);
-                self.fastest = Some((growth, Critical { speed: 0.0, eigenvalue, kind: Instability::Flutter, cable }));
-            }
+/// Looks at all modes at rest of a problem without damping, in [steps](crate::stability::steps) of a mode.
+///
+/// # Errors
+/// [`NotConverged`] where the frequencies cannot be had.
+pub(super) async fn growth_at_rest(vibration: &Vibration) -> Result<AtRest, NotConverged> {
+    let mut spectra = Spectra::new(vibration)?;
+    let spectrum = spectra.spectrum_in_steps(vibration, 0.0).await?;
+    let known = |omega: f64| spectrum.rounding(Complex::new(0.0, omega)) + ROUNDING_OF_EIGENVALUES * spectra.scale();
+    let all: Vec<f64> = spectrum.modes().map(|mode| mode.eigenvalue.im).collect();
+    let apart = |a: f64, b: f64| b - a > APART * known(b);
+    let is_simple =
+        |i: usize| (i == 0 || apart(all[i - 1], all[i])) && all.get(i + 1).is_none_or(|&next| apart(all[i], next));
+    let simple: Vec<f64> = (0..all.len()).filter(|&i| is_simple(i)).map(|i| all[i]).collect();
+    // Of eigenvalues that are not simple it is not known what the speed does to them.
+    let mut decays = simple.len() == all.len();
+    let mut fastest: Option<(f64, Critical)> = None;
+    // The order decides which one of equals is the first.
+    for &omega in simple.rchunks(AT_ONCE).flatten() {
+        let eigenvalue = Complex::new(0.0, omega);
+        let mode = mode(vibration, 0.0, eigenvalue, Polarisation::default());
+        let [growth, size] = growth(vibration, &mode);
+        decays &= growth < -NONE * size;
+        // Equal but for rounding, the first one counts.
+        let faster = fastest.as_ref().is_none_or(|(fastest, _)| growth > *fastest + NONE * size);
+        if growth > NONE * size && faster {
+            let cable = responsible_cable(vibration, &mode);
+            fastest = Some((growth, Critical { speed: 0.0, eigenvalue, kind: Instability::Flutter, cable }));
         }
-        if !self.open.is_empty() {
-            return None;
-        }
-        Some(match self.fastest.take() {
-            Some((_, critical)) => AtRest::Grows(critical),
-            None if self.decays => AtRest::Decays,
-            None => AtRest::Neutral,
-        })
+        step().await;
     }
+    Ok(match fastest {
+        Some((_, critical)) => AtRest::Grows(critical),
+        None if decays => AtRest::Decays,
+        None => AtRest::Neutral,
+    })
 }
 
 /// −x* C x/(2 x* M x) in 1/s per m/s, and the size of what it is the sum of; not a number where the shape is not known.

@@ -51,11 +51,17 @@ impl<T> Steps<T> {
 
 /// Does all of a computation at once.
 pub fn finish<T>(work: impl Future<Output = T>) -> T {
+    finish_watched(work, || {})
+}
+
+/// Does all of a computation at once and calls `watch` after each step but the last.
+pub fn finish_watched<T>(work: impl Future<Output = T>, mut watch: impl FnMut()) -> T {
     let mut work = pin!(work);
     loop {
         if let Poll::Ready(result) = work.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
             return result;
         }
+        watch();
     }
 }
 
@@ -78,5 +84,7 @@ mod tests {
         let results: Vec<Option<u32>> = (0..6).map(|_| steps.advance()).collect();
         assert_eq!(results, [None, None, None, Some(6), None, None]);
         assert_eq!(finish(sum(vec![1, 2, 3])), 6);
+        let mut watched = 0;
+        assert_eq!((finish_watched(sum(vec![1, 2, 3]), || watched += 1), watched), (6, 3));
     }
 }

@@ -34,7 +34,7 @@ pub fn track(spectra: &[(f64, Vec<Complex<f64>>)]) -> Vec<Track> {
     finish(track_in_steps(spectra))
 }
 
-/// The same in [steps](crate::stability::steps) of one speed.
+/// The same in [steps](crate::stability::steps) of one mode at one speed.
 pub async fn track_in_steps(spectra: &[(f64, Vec<Complex<f64>>)]) -> Vec<Track> {
     let mut tracks: Vec<Track> = Vec::new();
     // Those that reach the speed before.
@@ -42,7 +42,7 @@ pub async fn track_in_steps(spectra: &[(f64, Vec<Complex<f64>>)]) -> Vec<Track> 
     for (speed, eigenvalues) in spectra {
         let values: Vec<C64> = eigenvalues.iter().copied().filter(|value| value.im >= 0.0).collect();
         let heads: Vec<Head> = active.iter().map(|&i| Head::new(&tracks[i], *speed)).collect();
-        let successor = join(&heads, &values);
+        let successor = join(&heads, &values).await;
         let mut taken: Vec<Option<usize>> = vec![None; values.len()];
         for (&i, value) in active.iter().zip(successor) {
             if let Some(j) = value {
@@ -101,7 +101,7 @@ impl Head {
 }
 
 /// For each head the index of its next value, if any.
-fn join(heads: &[Head], values: &[C64]) -> Vec<Option<usize>> {
+async fn join(heads: &[Head], values: &[C64]) -> Vec<Option<usize>> {
     let mut successor = vec![None; heads.len()];
     let mut free = vec![true; values.len()];
     // Pairs go on as pairs; what is left over has met the real axis or comes from there.
@@ -111,7 +111,8 @@ fn join(heads: &[Head], values: &[C64]) -> Vec<Option<usize>> {
         let columns: Vec<usize> =
             (0..values.len()).filter(|&j| free[j] && !(pairs_only && values[j].im == 0.0)).collect();
         let cost = |row: usize, column: usize| heads[rows[row]].cost(values[columns[column]]);
-        for (row, column) in assign(rows.len(), columns.len(), &|row, column| cost(row, column).0) {
+        let pairs = assign(rows.len(), columns.len(), &|row, column| cost(row, column).0).await;
+        for (row, column) in pairs {
             if cost(row, column).1 {
                 successor[rows[row]] = Some(columns[column]);
                 free[columns[column]] = false;
@@ -121,11 +122,18 @@ fn join(heads: &[Head], values: &[C64]) -> Vec<Option<usize>> {
     successor
 }
 
-/// Pairs (row, column), as many as there are of the fewer, each row and column at most once, at the least sum of costs.
-fn assign(rows: usize, columns: usize, cost: &dyn Fn(usize, usize) -> f64) -> Vec<(usize, usize)> {
-    if rows > columns {
-        return assign(columns, rows, &|row, column| cost(column, row)).into_iter().map(|(a, b)| (b, a)).collect();
+/// Pairs (row, column), as many as there are of the fewer, each row and column at most once, at the least sum of costs;
+/// in steps of one row or column.
+async fn assign(rows: usize, columns: usize, cost: &(impl Fn(usize, usize) -> f64 + Sync)) -> Vec<(usize, usize)> {
+    if rows <= columns {
+        return assign_rows(rows, columns, cost).await;
     }
+    let transposed = assign_rows(columns, rows, &|column, row| cost(row, column)).await;
+    transposed.into_iter().map(|(column, row)| (row, column)).collect()
+}
+
+/// The same where there are no more rows than columns.
+async fn assign_rows(rows: usize, columns: usize, cost: &(impl Fn(usize, usize) -> f64 + Sync)) -> Vec<(usize, usize)> {
     // The Hungarian method: row by row, the shortest path through costs reduced by potentials to a free column. The
     // column beyond the last stands for the row that is being added.
     let (none, start) = (rows, columns);
@@ -167,6 +175,7 @@ fn assign(rows: usize, columns: usize, cost: &dyn Fn(usize, usize) -> f64) -> Ve
             row_of[at] = row_of[before];
             at = before;
         }
+        step().await;
     }
     (0..columns).filter(|&column| row_of[column] != none).map(|column| (row_of[column], column)).collect()
 }
@@ -174,6 +183,7 @@ fn assign(rows: usize, columns: usize, cost: &dyn Fn(usize, usize) -> f64) -> Ve
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stability::steps::finish_watched;
 
     #[test]
     fn assignments_have_the_least_sum() {
@@ -193,8 +203,8 @@ mod tests {
                     }
                 }
             }
-            let wide = assign(3, 4, &|row, column| costs[4 * row + column]);
-            let tall = assign(4, 3, &|row, column| costs[4 * column + row]);
+            let wide = finish(assign(3, 4, &|row, column| costs[4 * row + column]));
+            let tall = finish(assign(4, 3, &|row, column| costs[4 * column + row]));
             for (sum, pairs) in [
                 (wide.iter().map(|&(row, column)| costs[4 * row + column]).sum::<f64>(), &wide),
                 (tall.iter().map(|&(row, column)| costs[4 * column + row]).sum(), &tall),
@@ -202,6 +212,21 @@ mod tests {
                 assert_eq!((sum, pairs.len()), (least, 3));
             }
         }
-        assert!(assign(0, 3, &|_, _| 1.0).is_empty() && assign(3, 0, &|_, _| 1.0).is_empty());
+        for (rows, columns) in [(0, 3), (3, 0)] {
+            assert!(finish(assign(rows, columns, &|_, _| 1.0)).is_empty());
+        }
+    }
+
+    /// Joining one speed's modes takes up to the cube of their number.
+    #[test]
+    fn modes_are_joined_in_steps_of_one_mode() {
+        let (speeds, modes) = (4, 7);
+        let spectrum = |k: i32| (1..=modes).map(|j| C64::new(-0.1, f64::from(j) + 0.01 * f64::from(k))).collect();
+        let spectra: Vec<(f64, Vec<C64>)> = (0..speeds).map(|k| (f64::from(k), spectrum(k))).collect();
+        let mut steps = 0;
+        let tracks = finish_watched(track_in_steps(&spectra), || steps += 1);
+        assert_eq!((tracks.len(), tracks[0].points.len()), (7, 4));
+        // None of the first speed's modes has anything to be joined to.
+        assert_eq!(steps, speeds + (speeds - 1) * modes);
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration, WaveLimit};
 use crate::robot::{Motion, Robot, Vec2};
-use crate::stability::steps::{finish, step};
+use crate::stability::steps::finish;
 use crate::stability::{CriticalSearch, NotConverged, Outcome, Spectra, Spectrum};
 
 /// Statics, motion and the small-vibration problem at one pose.
@@ -95,12 +95,6 @@ impl LocalProblem {
     /// # Errors
     /// As [`Self::critical_speed`].
     pub async fn critical_speed_in_steps(&self, limit: f64) -> Result<Outcome, NotConverged> {
-        let mut search = CriticalSearch::new(limit);
-        loop {
-            if let Some(outcome) = search.advance(&self.vibration)? {
-                return Ok(outcome);
-            }
-            step().await;
-        }
+        CriticalSearch::new(limit).run_in_steps(&self.vibration).await
     }
 }
