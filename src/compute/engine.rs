@@ -387,7 +387,7 @@ impl Pose {
         let search = Arc::new(CriticalSearch::new(self.limit));
         let (watched, local) = (Arc::clone(&search), Arc::clone(&self.local));
         let steps = Steps::new(async move { search.run_in_steps(&local.vibration).await });
-        self.stage = Stage::Searching { search: watched, steps, since: Instant::now() };
+        self.phase = Phase::Searching { search: watched, steps, since: Instant::now() };
         self
     }
 

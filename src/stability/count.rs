@@ -201,9 +201,8 @@ pub(super) fn change(difference: C64, before: C64, after: C64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Linearisation, Motion, Robot, RobotSpec, paper_spec};
-    use crate::stability::Eigenproblem;
-    use crate::study::LocalProblem;
+    use crate::robot::{Linearisation, RobotSpec, paper_spec};
+    use crate::stability::{Eigenproblem, problems};
 
     /// A zero half a length from a step's middle is off the trapezoidal rule by π/2 − 1 and changes the derivative by 2.
     #[test]
@@ -227,15 +226,15 @@ mod tests {
     fn counts_what_the_dense_solver_finds() {
         for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
             for (at, towards) in [([0.0, 0.0], [1.0, 0.0]), ([4.0, 1.0], [1.0, 1.0]), ([7.0, 0.0], [-1.0, 0.0])] {
-                let robot = Robot::new(RobotSpec { elements: 6, linearisation, ..paper_spec() }).unwrap();
-                let local = LocalProblem::new(&robot, &Motion::new(at, towards, 5.0).unwrap()).unwrap();
-                let dense = Eigenproblem::new(&local.vibration).unwrap();
-                let bounds = Bounds::new(&local.vibration).unwrap();
+                let spec = RobotSpec { elements: 6, linearisation, ..paper_spec() };
+                let vibration = problems::of_robot(spec, at, towards);
+                let dense = Eigenproblem::new(&vibration).unwrap();
+                let bounds = Bounds::new(&vibration).unwrap();
                 let mut most = 0;
                 for speed in [1.0, 5.0, 10.9, 12.0, 15.0, 21.0, 30.0] {
                     let spectrum = dense.spectrum(speed).unwrap();
                     let unstable: Vec<C64> = spectrum.eigenvalues().filter(|l| l.re > 0.0).collect();
-                    assert_eq!(unstable_eigenvalues(&local.vibration, speed), Some(unstable.len()), "at {speed} m/s");
+                    assert_eq!(unstable_eigenvalues(&vibration, speed), Some(unstable.len()), "at {speed} m/s");
                     assert!(unstable.iter().all(|l| l.norm() < bounds.largest_unstable(speed)), "at {speed} m/s");
                     most = most.max(unstable.len());
                 }

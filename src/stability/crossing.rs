@@ -275,7 +275,7 @@ impl Plane {
             let bounds = &self.counter.bounds;
             omega += bounds.frequency_step(omega, LARGEST_WIDTH).max(bounds.decay(omega));
             let right = [self.corner(omega, from), self.corner(omega, to)];
-            self.search_cell(from, Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] }).await?;
+            self.search_cells(from, vec![Cell { lower: [left[0], right[0]], upper: [left[1], right[1]] }]).await?;
             left = right;
         }
         Ok(())
@@ -395,10 +395,9 @@ impl Plane {
         Search::Crossing { omega: if omega <= SAME * self.cell[0] { 0.0 } else { omega }, speed }
     }
 
-    /// The same in one cell of the strip; each part of it that is looked at is a step.
-    async fn search_cell(&mut self, from: f64, cell: Cell) -> Result<(), Unsettled> {
-        // The last one is the next: the lower or left half of a cell comes before the other.
-        let mut open = vec![cell];
+    /// The same in the cells that are `open`, the last one first. Each part of a cell that is looked at is a step.
+    async fn search_cells(&mut self, from: f64, mut open: Vec<Cell>) -> Result<(), Unsettled> {
+        // The lower or left half of a cell comes before the other.
         while let Some(mut cell) = open.pop() {
             if let Some(halves) = self.halves_to_search(from, &mut cell)? {
                 open.extend(halves.into_iter().rev());
@@ -587,21 +586,17 @@ fn newton_step(corner: &Corner) -> Option<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::{Motion, paper};
-    use crate::stability::Eigenproblem;
+    use crate::robot::paper_spec;
     use crate::stability::steps::finish;
-    use crate::study::LocalProblem;
+    use crate::stability::{Eigenproblem, problems};
 
-    fn local() -> LocalProblem {
-        LocalProblem::new(&paper().unwrap(), &Motion::new([0.0, 0.0], [1.0, 0.0], 5.0).unwrap()).unwrap()
+    fn problem() -> Vibration {
+        problems::of_robot(paper_spec(), [0.0, 0.0], [1.0, 0.0])
     }
 
-    fn plane(local: &LocalProblem) -> Plane {
+    fn plane(vibration: &Vibration) -> Plane {
         Plane {
-            counter: Counter::new(
-                Bounds::new(&local.vibration).unwrap(),
-                Axis::new(Characteristic::new(&local.vibration)),
-            ),
+            counter: Counter::new(Bounds::new(vibration).unwrap(), Axis::new(Characteristic::new(vibration))),
             known: HashMap::new(),
             trend: Trend::default(),
             zeros: Vec::new(),
@@ -612,10 +607,10 @@ mod tests {
     }
 
     /// The first crossing.
-    fn crossing(local: &LocalProblem) -> [f64; 2] {
-        let mut search = FirstCrossing::new(&local.vibration, 0.0, 20.0).unwrap();
+    fn crossing(vibration: &Vibration) -> [f64; 2] {
+        let mut search = FirstCrossing::new(vibration, 0.0, 20.0).unwrap();
         loop {
-            match finish(search.search_next_strip(&local.vibration)).unwrap() {
+            match finish(search.search_next_strip(vibration)).unwrap() {
                 None => {}
                 Some(Search::Crossing { omega, speed }) => return [omega, speed],
                 Some(Search::NoneUpTo) => panic!("no crossing"),
@@ -678,8 +673,8 @@ mod tests {
     /// 2 s² v ω per unit of v, spaced by π over the time that a wave travels.
     #[test]
     fn a_cell_in_which_the_phase_may_turn_is_tall() {
-        let local = local();
-        let mut plane = plane(&local);
+        let vibration = problem();
+        let mut plane = plane(&vibration);
         let height = LARGEST_MOVE * plane.counter.bounds.speed_step(30.0, 8.0);
         for (part, tall) in [(0.99, false), (1.01, true)] {
             let cell = cell([20.0, 30.0], [8.0 - part * height, 8.0]);
@@ -698,13 +693,13 @@ mod tests {
     /// An eigenvalue that crosses moves by −i b per unit of v, its conjugate by the conjugate of that.
     #[test]
     fn a_zero_has_the_slope_of_the_eigenvalue() {
-        let local = local();
-        let mut plane = plane(&local);
-        let [omega, speed] = crossing(&local);
+        let vibration = problem();
+        let mut plane = plane(&vibration);
+        let [omega, speed] = crossing(&vibration);
         let off = newton_step(&plane.at(omega, speed)).unwrap();
         assert!(off.iter().all(|part| part.abs() < 1e-10), "the crossing is off by {off:?}");
         let zero = plane.zero_at(omega, speed).unwrap();
-        let dense = Eigenproblem::new(&local.vibration).unwrap();
+        let dense = Eigenproblem::new(&vibration).unwrap();
         let near = |speed: f64| {
             let spectrum = dense.spectrum(speed).unwrap();
             let distance = |l: &C64| (l - C64::new(0.0, omega)).norm();
@@ -736,8 +731,8 @@ mod tests {
     /// Corners between two strips are kept, with the new trend in place of the old one.
     #[test]
     fn corners_follow_the_trend() {
-        let local = local();
-        let mut plane = plane(&local);
+        let vibration = problem();
+        let mut plane = plane(&vibration);
         plane.follow_trend(9.0, 10.0, 30.0);
         for speed in [9.0, 10.0] {
             plane.corner(2.0, speed);
