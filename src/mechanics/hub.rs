@@ -12,7 +12,7 @@ pub type Joint = Matrix2xX<f64>;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hub<D = f64> {
     mass: DMatrix<D>,
-    stiffness: DMatrix<D>,
+    pub(crate) stiffness: DMatrix<D>,
     joints: Vec<Joint>,
 }
 

@@ -5,14 +5,13 @@
 //! their rates with v². K is the elastic part alone. Winch nodes do not move. The matrices are never formed here:
 //! the problem is kept as chains of elements that meet in the platform. docs/theory.md section 7.
 
-use nalgebra::Vector2;
+use nalgebra::{Matrix2, Vector2};
 use num_dual::{Dual2, Dual64, DualNum};
 
-use super::arrow::Arrow;
 use super::cable::CableModel;
 use super::motion::paths;
 use super::parameters::{Knob, Parameters};
-use crate::mechanics::{CableShape, Element, Hub, LengthRates, Material, Statics, Stiffness};
+use crate::mechanics::{CableShape, Element, Hub, Joint, LengthRates, Material, Statics, Stiffness};
 use crate::robot::{Damping, Linearisation, Robot, Vec2};
 
 impl<D: DualNum<Primitive = f64> + Copy> Element<D> {
@@ -66,6 +65,14 @@ impl<D> Chain<D> {
     /// Number of nodes that move, besides the one at the hub.
     pub fn inner_nodes(&self) -> usize {
         self.elements.len() - 1
+    }
+}
+
+impl Chain {
+    /// The stiffness (N/m, over x and y) with which the chain holds its first node at rest: that of its elements in series.
+    pub fn stiffness_in_series(&self) -> Matrix2<f64> {
+        let compliance = self.elements.iter().filter_map(|element| element.elastic().try_inverse());
+        compliance.sum::<Matrix2<f64>>().try_inverse().unwrap_or_else(Matrix2::zeros)
     }
 }
 
@@ -138,13 +145,17 @@ impl Vibration {
     }
 
     /// Whether K is positive definite, so that the robot is stable at v = 0.
+    ///
+    /// A chain of positive springs is. What it leaves at the hub is its stiffness in series, so that the hub's own stiffness
+    /// with all of these has to be positive definite as well. That of a point is zero, and adds no doubt.
     pub fn is_stable_at_rest(&self) -> bool {
-        let elastic = |element: &Element| {
-            let k = element.elastic();
-            [[k, -k], [-k, k]]
-        };
-        let chains = self.chains.iter().map(Chain::elements).zip(self.hub.joints().iter().cloned());
-        Arrow::factor(self.hub.stiffness().clone(), chains, elastic).is_positive_definite()
+        let positive = |element: &Element| element.springs().into_iter().all(|spring| spring > 0.0);
+        let own = self.hub.stiffness();
+        let in_series = |(chain, joint): (&Chain, &Joint)| joint.transpose() * (chain.stiffness_in_series() * joint);
+        let held =
+            || self.chains.iter().zip(self.hub.joints()).map(in_series).fold(own.clone(), |sum, part| sum + part);
+        self.chains.iter().flat_map(Chain::elements).all(positive)
+            && (own.iter().all(|&entry| entry == 0.0) || held().cholesky().is_some())
     }
 
     /// Number of nodes that move.
@@ -179,6 +190,32 @@ mod tests {
     use super::*;
     use crate::mechanics::{self, length_rates};
     use crate::robot::{RobotSpec, Strain, paper, paper_spec};
+
+    /// Springs that push are not stable, nor is a hub whose own stiffness takes away more than the cables give.
+    #[test]
+    fn at_rest_the_cables_hold_what_the_hub_loses() {
+        let robot = paper().expect("a robot");
+        let statics = mechanics::solve(&robot, Vec2::new(1.0, 0.5)).expect("statics");
+        let rates = length_rates(&robot, &statics, Vec2::x()).expect("rates");
+        let vibration = Vibration::new(&robot, &statics, &rates).expect("a problem");
+        assert!(vibration.is_stable_at_rest());
+        let mut pushing = vibration.clone();
+        pushing.chains[1].elements_mut()[3].stiffness.across *= -1.0;
+        assert!(!pushing.is_stable_at_rest());
+        let held: Matrix2<f64> = vibration.chains.iter().map(Chain::stiffness_in_series).sum();
+        // Of four springs (N/λ)/l each, by the secant in all directions alike.
+        let springs: f64 = vibration
+            .chains
+            .iter()
+            .map(|chain| 1.0 / chain.elements().iter().map(|element| 1.0 / element.springs()[1]).sum::<f64>())
+            .sum();
+        assert!((held - Matrix2::identity() * springs).amax() < 1e-12 * springs, "{held} {springs}");
+        for (part, stable) in [(0.99, true), (1.01, false), (-1.0, true)] {
+            let mut lossy = vibration.clone();
+            lossy.hub.stiffness = nalgebra::DMatrix::from_diagonal_element(2, 2, -part * springs);
+            assert_eq!(lossy.is_stable_at_rest(), stable, "{part}");
+        }
+    }
 
     /// What has no meaning cannot be built, and what does not belong together has no problem.
     #[test]

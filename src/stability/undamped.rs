@@ -33,7 +33,7 @@ pub(super) fn squares(vibration: &Vibration) -> Vec<f64> {
                 6.0 * uniform * (1.0 - cosine) / (2.0 + cosine)
             }));
         }
-        stiffness += in_series(chain);
+        stiffness += chain.stiffness_in_series();
         mass += chain.elements().iter().map(Element::total_mass).sum::<f64>() / 3.0;
     }
     if let Some(platform) = vibration.hub.platform_mass() {
@@ -78,13 +78,6 @@ fn trace(vibration: &Vibration, of: impl Fn(&Element) -> Matrix2<f64>) -> f64 {
 fn springs(element: &Element) -> [f64; 2] {
     let [along, across] = element.springs();
     [along.min(across), along.max(across)]
-}
-
-/// The stiffness that a cable without mass holds the platform with.
-fn in_series(chain: &Chain) -> Matrix2<f64> {
-    let compliance =
-        chain.elements().iter().filter_map(|e| e.elastic().try_inverse()).fold(Matrix2::zeros(), |a, b| a + b);
-    compliance.try_inverse().unwrap_or_else(Matrix2::zeros)
 }
 
 #[cfg(test)]
