@@ -268,23 +268,6 @@ fn the_reader_sees_what_it_must_and_skips_what_it_should() {
     assert!(out_of_the_room(&room.join("local.rs"), "use super::super::app;"));
 }
 
-/// Files that still use each other, with the reason. Nothing is added here.
-const KNOWN_CIRCLES: [&[&str]; 4] = [
-    // The answers of verbs are printed where the verbs are chosen.
-    &["cli/analyze.rs", "cli/example.rs", "cli/link.rs", "cli/map.rs", "cli/mod.rs", "cli/rows.rs", "cli/sweep.rs"],
-    // Threads and web workers carry out what they are told by what they report to.
-    &["compute/pool/core.rs", "compute/pool/mod.rs", "compute/pool/native.rs", "compute/pool/web.rs"],
-    // What the search finds is described where it is begun.
-    &["stability/critical.rs", "stability/rest.rs"],
-    // The outcome of a check is described where checks are listed.
-    &[
-        "study/validation/hanging.rs",
-        "study/validation/mod.rs",
-        "study/validation/robots.rs",
-        "study/validation/strings.rs",
-    ],
-];
-
 /// A file's name below `src`, and its place in the tree of modules; alternatives such as native.rs and web.rs have the
 /// same place.
 struct Module {
@@ -474,10 +457,7 @@ fn no_files_use_each_other() {
     for (i, module) in modules.iter().enumerate() {
         for &j in uses[i].iter().filter(|j| reached[**j].contains(&i)) {
             let other = &modules[j].file;
-            let known = |circle: &[&str]| circle.contains(&module.file.as_str()) && circle.contains(&other.as_str());
-            if !KNOWN_CIRCLES.into_iter().any(known) {
-                faults.push(format!("{} uses {other}, which leads back to it", module.file));
-            }
+            faults.push(format!("{} uses {other}, which leads back to it", module.file));
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));

@@ -3,8 +3,10 @@
 use std::io::Read;
 use std::path::PathBuf;
 
+use crate::cli::output::{CommandResult, Output};
 use crate::cli::progress::Progress;
-use crate::cli::{CommandResult, Output, max_speed, read_scenario, text};
+use crate::cli::streams::{max_speed, read_scenario};
+use crate::cli::text;
 use crate::scenario::Report;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::stability::Method;

@@ -1,6 +1,6 @@
 //! `tautline example`: the built-in scenarios.
 
-use crate::cli::{CommandResult, Output};
+use crate::cli::output::{CommandResult, Output};
 use crate::scenario::presets::{self, PRESETS};
 
 /// Print a built-in scenario as a scenario file; without a name, list them.

@@ -3,7 +3,8 @@
 use std::io::Read;
 use std::path::PathBuf;
 
-use crate::cli::{CommandResult, Output, read_scenario};
+use crate::cli::output::{CommandResult, Output};
+use crate::cli::streams::read_scenario;
 use crate::scenario::link;
 
 /// Print what to append to the page's address to open it with a scenario: #s=…

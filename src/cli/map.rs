@@ -4,9 +4,10 @@ use std::fmt::{self, Write as _};
 use std::io::Read;
 use std::path::PathBuf;
 
+use crate::cli::output::{CommandResult, Output};
 use crate::cli::rows::{COLUMNS, Form, Options, Row, Rows};
+use crate::cli::streams::read_scenario;
 use crate::cli::text::{CAVEAT, critical_sentence, digits};
-use crate::cli::{CommandResult, Output, read_scenario};
 use crate::robot::Vec2;
 use crate::scenario::options::MOST_POINTS;
 use crate::stability::{TIE_OF_SPEEDS, first_largest, first_lowest};

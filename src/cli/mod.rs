@@ -4,20 +4,23 @@ mod analyze;
 mod example;
 mod link;
 mod map;
+mod output;
 mod progress;
 mod rows;
+mod streams;
 mod sweep;
 mod text;
 
 use std::ffi::OsString;
 use std::io::{self, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::scenario::{Scenario, file};
-use crate::stability::{ALLOWED_LIMIT, is_limit};
+use crate::cli::output::Output;
+use crate::cli::streams::{BAD_INPUT, complain, read_scenario, write_out};
+use crate::scenario::Scenario;
 
 /// What the command line asks for.
 #[derive(Debug)]
@@ -30,11 +33,6 @@ pub enum Start {
     /// Nothing more: all is done and told.
     Done(ExitCode),
 }
-
-/// The exit code for bad input.
-const BAD_INPUT: u8 = 2;
-/// The exit code where results could not be written.
-const NOT_WRITTEN: u8 = 1;
 
 /// Critical speed of cable-driven parallel robots.
 ///
@@ -64,16 +62,6 @@ enum Verb {
     Example(example::Args),
     Link(link::Args),
 }
-
-/// What a verb prints on standard output.
-enum Output {
-    Text(String),
-    /// Still to be computed, from input that has been checked.
-    Rows(rows::Rows),
-}
-
-/// A verb's output, or one line per fault.
-type CommandResult = Result<Output, Vec<String>>;
 
 /// Where the program reads and writes: the process's own streams, or a test's.
 pub struct Streams<'a> {
@@ -126,31 +114,6 @@ pub fn fail(fault: &str) -> ExitCode {
     ExitCode::from(BAD_INPUT)
 }
 
-/// A line on standard error; where that is closed there is nobody to tell.
-fn complain(errors: &mut dyn Write, line: &str) {
-    let _ = writeln!(errors, "{line}");
-}
-
-/// Writes to standard output, and to `errors` why that is not possible.
-///
-/// # Errors
-/// The exit code to end with, where nothing more can be written. Standard output closed by its reader is no fault: it
-/// has seen enough.
-fn write_out(output: &mut dyn Write, errors: &mut dyn Write, text: &str) -> Result<(), ExitCode> {
-    output.write_all(text.as_bytes()).and_then(|()| output.flush()).map_err(|error| {
-        if error.kind() == io::ErrorKind::BrokenPipe {
-            return ExitCode::SUCCESS;
-        }
-        complain(errors, &format!("standard output: {error}"));
-        ExitCode::from(NOT_WRITTEN)
-    })
-}
-
-/// A speed up to which to search, in m/s.
-fn max_speed(text: &str) -> Result<f64, String> {
-    text.parse().ok().filter(|&speed| is_limit(speed)).ok_or_else(|| format!("allowed: {ALLOWED_LIMIT}"))
-}
-
 /// The first paragraph of clap's message.
 fn one_line(error: &clap::Error) -> String {
     let message = error.to_string();
@@ -158,14 +121,4 @@ fn one_line(error: &clap::Error) -> String {
     let paragraph = paragraph.join(" ");
     let what = paragraph.strip_prefix("error: ").unwrap_or(&paragraph);
     format!("tautline: {what}; tautline --help says what is possible")
-}
-
-/// The scenario in a file, or in the standard `input` where `path` is `-`; faults with the file's name in front.
-fn read_scenario(path: &Path, input: &mut dyn Read) -> Result<Scenario, Vec<String>> {
-    let standard_input = path.as_os_str() == "-";
-    let name = if standard_input { "standard input".into() } else { path.display().to_string() };
-    let fault = |what: &dyn std::fmt::Display| format!("{name}: {what}");
-    let text = if standard_input { file::read(input) } else { file::open(path) };
-    let text = text.map_err(|error| vec![fault(&error)])?;
-    Scenario::from_json(&text).map_err(|faults| faults.list().iter().map(|one| fault(one)).collect())
 }

@@ -11,7 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use crate::cli::progress::Progress;
-use crate::cli::{NOT_WRITTEN, complain, max_speed, write_out};
+use crate::cli::streams::{NOT_WRITTEN, complain, max_speed, write_out};
 use crate::robot::Vec2;
 use crate::scenario::report::{CriticalReport, DEFAULT_MAX_SPEED, StatusReport};
 use crate::study::{Status, Verdict};

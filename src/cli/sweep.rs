@@ -8,9 +8,10 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use crate::cli::output::{CommandResult, Output};
 use crate::cli::rows::{COLUMNS, Form, Options, Row, Rows, exact};
+use crate::cli::streams::read_scenario;
 use crate::cli::text::digits;
-use crate::cli::{CommandResult, Output, read_scenario};
 use crate::robot::{Faults, Vec2};
 use crate::scenario::{Parameter, Scenario};
 use crate::study::{Verdict, evenly, verdict};

@@ -2,9 +2,8 @@
 
 use web_time::Instant;
 
-use super::platform::Crew;
 use super::scheduler::{Action, Scheduler, WorkerId};
-use crate::compute::protocol::AnsweredBatch;
+use crate::compute::protocol::{AnsweredBatch, Task};
 
 /// What is heard of a worker.
 pub enum Event {
@@ -16,17 +15,35 @@ pub enum Event {
     Lost(String),
 }
 
+/// The workers that the pool has started: threads or web workers.
+pub trait Crew {
+    /// Starts a worker.
+    ///
+    /// # Errors
+    /// Why there can be none.
+    fn start(&mut self, worker: WorkerId) -> Result<(), String>;
+
+    /// Sends a task.
+    ///
+    /// # Errors
+    /// Why it cannot be sent.
+    fn tell(&mut self, worker: WorkerId, task: Task) -> Result<(), String>;
+
+    /// Ends a worker after its slice.
+    fn stop(&mut self, worker: WorkerId);
+}
+
 /// The scheduler with the workers that do what it says.
-pub struct Core {
+pub struct Core<C> {
     /// What is to be done.
     pub scheduler: Scheduler,
-    crew: Crew,
+    crew: C,
     begun: Instant,
 }
 
-impl Core {
+impl<C: Crew> Core<C> {
     /// With no worker yet.
-    pub fn new(scheduler: Scheduler, crew: Crew) -> Self {
+    pub fn new(scheduler: Scheduler, crew: C) -> Self {
         Self { scheduler, crew, begun: Instant::now() }
     }
 

@@ -21,9 +21,6 @@ pub use pool_worker::PoolWorker;
 use self::platform::SharedCore;
 use crate::compute::protocol::{StudyJob, StudyNews, Topic};
 
-/// More workers than this gain little and cost memory.
-const MOST: usize = 8;
-
 /// Workers that answer studies, seen from the interface.
 pub struct Pool {
     shared: SharedCore,

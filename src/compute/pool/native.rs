@@ -7,15 +7,15 @@ use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 use std::thread;
 
-use super::MOST;
-use super::core::{Core, Event};
+use super::core::{self, Crew, Event};
 use super::pool_worker::PoolWorker;
-use super::scheduler::{Scheduler, WorkerId};
+use super::scheduler::{MOST_WORKERS, Scheduler, WorkerId};
 use crate::compute::protocol::Task;
 use crate::compute::robot_study::RobotStudy;
 use crate::stability::Steps;
 use crate::study::Answer;
 
+type Core = core::Core<Threads>;
 /// How a place is answered.
 type AnswerAt = dyn Fn(&Arc<RobotStudy>, usize) -> Steps<Answer> + Send + Sync;
 
@@ -27,7 +27,7 @@ pub struct SharedCore {
 impl SharedCore {
     /// A pool without threads.
     pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        let size = thread::available_parallelism().map_or(1, usize::from).min(MOST);
+        let size = thread::available_parallelism().map_or(1, usize::from).min(MOST_WORKERS);
         Self::by(size, wake, RobotStudy::answer)
     }
 
@@ -39,7 +39,8 @@ impl SharedCore {
     ) -> Self {
         let (wake, answer) = (Arc::new(wake), Arc::new(answer));
         let core = Arc::new_cyclic(|core| {
-            let crew = Crew { inboxes: BTreeMap::new(), report: Messenger { core: Weak::clone(core), wake }, answer };
+            let crew =
+                Threads { inboxes: BTreeMap::new(), report: Messenger { core: Weak::clone(core), wake }, answer };
             // No thread vanishes without a word.
             Mutex::new(Core::new(Scheduler::new(size, false), crew))
         });
@@ -77,19 +78,15 @@ impl Messenger {
 }
 
 /// The threads.
-pub struct Crew {
+pub struct Threads {
     /// A thread ends when its inbox is dropped.
     inboxes: BTreeMap<WorkerId, Sender<Task>>,
     report: Messenger,
     answer: Arc<AnswerAt>,
 }
 
-impl Crew {
-    /// Starts a thread.
-    ///
-    /// # Errors
-    /// Where the system has none to give.
-    pub fn start(&mut self, worker: WorkerId) -> Result<(), String> {
+impl Crew for Threads {
+    fn start(&mut self, worker: WorkerId) -> Result<(), String> {
         let (inbox, tasks) = channel();
         let (report, answer) = (self.report.clone(), self.answer.clone());
         let run = move || {
@@ -105,17 +102,12 @@ impl Crew {
         Ok(())
     }
 
-    /// Sends a task.
-    ///
-    /// # Errors
-    /// Where the thread has ended.
-    pub fn tell(&mut self, worker: WorkerId, task: Task) -> Result<(), String> {
+    fn tell(&mut self, worker: WorkerId, task: Task) -> Result<(), String> {
         let sent = self.inboxes.get(&worker).is_some_and(|inbox| inbox.send(task).is_ok());
         if sent { Ok(()) } else { Err("the thread has ended".into()) }
     }
 
-    /// Ends a thread after its slice.
-    pub fn stop(&mut self, worker: WorkerId) {
+    fn stop(&mut self, worker: WorkerId) {
         self.inboxes.remove(&worker);
     }
 }

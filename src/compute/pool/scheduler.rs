@@ -7,6 +7,9 @@ use super::study::{RunningStudy, SentBatch};
 use crate::compute::protocol::{AnsweredBatch, Batch, StudyJob, StudyNews, Task, Topic};
 use crate::study::Answer;
 
+/// More workers than this gain little and cost memory.
+pub const MOST_WORKERS: usize = 8;
+
 /// Names a worker; none comes twice.
 pub type WorkerId = u64;
 

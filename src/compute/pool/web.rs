@@ -6,11 +6,12 @@ use std::rc::{Rc, Weak};
 
 use wasm_bindgen::prelude::*;
 
-use super::MOST;
-use super::core::{Core, Event};
-use super::scheduler::{Scheduler, WorkerId};
+use super::core::{self, Crew, Event};
+use super::scheduler::{MOST_WORKERS, Scheduler, WorkerId};
 use crate::compute::link::{Heard, Link};
 use crate::compute::protocol::{Incoming, Outgoing, Task};
+
+type Core = core::Core<WebWorkers>;
 
 /// While studies are at work, lost workers are looked for at this interval, in ms, whether the page draws or not.
 const BEAT: i32 = 250;
@@ -26,11 +27,11 @@ impl SharedCore {
     pub fn new(wake: impl Fn() + 'static) -> Self {
         let cores = web_sys::window().map_or(1.0, |window| window.navigator().hardware_concurrency());
         // The page draws on one core. During a drag, when the pool is held, the engine has another.
-        let size = (1..=MOST).rev().find(|&size| size as f64 <= cores - 1.0).unwrap_or(1);
+        let size = (1..=MOST_WORKERS).rev().find(|&size| size as f64 <= cores - 1.0).unwrap_or(1);
         let wake: Rc<dyn Fn()> = Rc::new(wake);
         let core = Rc::new_cyclic(|core| {
             let report = Messenger { core: Weak::clone(core), wake: wake.clone() };
-            RefCell::new(Core::new(Scheduler::new(size, true), Crew { links: BTreeMap::new(), report }))
+            RefCell::new(Core::new(Scheduler::new(size, true), WebWorkers { links: BTreeMap::new(), report }))
         });
         let heart = Heart::new(Messenger { core: Rc::downgrade(&core), wake });
         Self { core, heart }
@@ -64,17 +65,13 @@ impl Messenger {
 }
 
 /// The web workers.
-pub struct Crew {
+pub struct WebWorkers {
     links: BTreeMap<WorkerId, Link>,
     report: Messenger,
 }
 
-impl Crew {
-    /// Starts a worker.
-    ///
-    /// # Errors
-    /// Where the browser refuses it.
-    pub fn start(&mut self, worker: WorkerId) -> Result<(), String> {
+impl Crew for WebWorkers {
+    fn start(&mut self, worker: WorkerId) -> Result<(), String> {
         let report = self.report.clone();
         let link = Link::start(move |heard| {
             let event = match heard {
@@ -89,17 +86,12 @@ impl Crew {
         Ok(())
     }
 
-    /// Sends a task.
-    ///
-    /// # Errors
-    /// Where there is no such worker, or the task cannot be written as bytes.
-    pub fn tell(&mut self, worker: WorkerId, task: Task) -> Result<(), String> {
+    fn tell(&mut self, worker: WorkerId, task: Task) -> Result<(), String> {
         let link = self.links.get(&worker).ok_or("the worker has ended")?;
         link.send(&Incoming::Task(task))
     }
 
-    /// Ends a worker.
-    pub fn stop(&mut self, worker: WorkerId) {
+    fn stop(&mut self, worker: WorkerId) {
         self.links.remove(&worker);
     }
 }

@@ -7,29 +7,27 @@
 //! return within one step are not seen; docs/theory.md section 8 says so.
 
 mod confirm;
+mod outcome;
 mod progress;
 mod refine;
 mod scan;
 #[cfg(test)]
 mod tests;
 
-use std::f64::consts::TAU;
-
 use nalgebra::Complex;
 
 use crate::mechanics::Vibration;
 use crate::stability::crossing::{FirstCrossing, Search};
-use crate::stability::modes::responsible_cable;
 use crate::stability::rest::{AtRest, growth_at_rest};
 use crate::stability::steps::finish;
-use crate::stability::{Doubt, NotConverged, Polarisation, mode};
+use crate::stability::{Doubt, NotConverged};
 use progress::Progress;
-use scan::{Scan, ScanSolver};
+use scan::{Scan, ScanSolver, is_undamped};
 
+pub use outcome::{Critical, Instability, Outcome};
 pub use progress::Sample;
+pub use scan::{Method, SCAN_STEP};
 
-/// The paper's step of the speed, in m/s.
-pub const SCAN_STEP: f64 = 0.1;
 /// The highest speed in m/s up to which a critical speed is searched for. A robot one of whose cables moves at the speed of
 /// its waves is no longer stable, give or take a few times that, and in no cable waves are faster than some 2000 m/s.
 pub const LARGEST_LIMIT: f64 = 10_000.0;
@@ -37,70 +35,6 @@ pub const LARGEST_LIMIT: f64 = 10_000.0;
 pub const ALLOWED_LIMIT: &str = "a number of m/s greater than 0, at most 10000, as no wave in a cable is faster";
 /// Without damping, the search begins at this speed in m/s where all modes decay from rest on.
 const ABOVE_REST: f64 = 1e-3;
-
-/// How stability is lost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
-pub enum Instability {
-    /// An oscillation grows.
-    Flutter,
-    /// A displacement grows without oscillating.
-    Divergence,
-}
-
-/// The first crossing.
-#[derive(Clone, Debug, PartialEq)]
-#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
-pub struct Critical {
-    /// The critical speed in m/s.
-    pub speed: f64,
-    /// The eigenvalue that crosses, with Im λ ≥ 0, in 1/s.
-    pub eigenvalue: Complex<f64>,
-    /// Flutter, or divergence where Im λ = 0.
-    pub kind: Instability,
-    /// The cable with the largest share of the mode's kinetic energy, 0-based.
-    pub cable: usize,
-}
-
-impl Critical {
-    /// |Im λ|/2π of the crossing eigenvalue in Hz; 0 for divergence.
-    pub fn frequency_hz(&self) -> f64 {
-        match self.kind {
-            Instability::Flutter => self.eigenvalue.im.abs() / TAU,
-            Instability::Divergence => 0.0,
-        }
-    }
-}
-
-/// How a search ended.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Outcome {
-    /// A crossing was found.
-    Found(Critical),
-    /// Every speed up to the limit (m/s) is stable.
-    NoneUpTo(f64),
-}
-
-impl Outcome {
-    /// The first crossing, where one was found.
-    pub fn critical(&self) -> Option<&Critical> {
-        match self {
-            Self::Found(critical) => Some(critical),
-            Self::NoneUpTo(_) => None,
-        }
-    }
-}
-
-/// How the critical speed is searched for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Method {
-    /// By structure, at a cost that grows with the number of elements; where that leaves doubt, by a
-    /// scan like the dense one, with the eigenvalues of [`Spectra`].
-    #[default]
-    Structured,
-    /// By all eigenvalues at speeds [`SCAN_STEP`] apart, then bisection.
-    Dense,
-}
 
 /// Whether a critical speed can be searched for up to `speed` (m/s): [`ALLOWED_LIMIT`].
 pub fn is_limit(speed: f64) -> bool {
@@ -211,7 +145,7 @@ impl CriticalSearch {
                 Some(Search::Crossing { omega, speed }) => {
                     let eigenvalue = Complex::new(0.0, omega);
                     let kind = if omega > 0.0 { Instability::Flutter } else { Instability::Divergence };
-                    return Ok(Outcome::Found(critical(vibration, speed, speed, eigenvalue, kind)));
+                    return Ok(Outcome::Found(Critical::at(vibration, speed, speed, eigenvalue, kind)));
                 }
             }
         }
@@ -224,14 +158,4 @@ impl CriticalSearch {
 /// [`Doubt`] where a scan must decide.
 pub fn structured(vibration: &Vibration, limit: f64) -> Result<Outcome, Doubt> {
     finish(CriticalSearch::new(limit).by_structure(vibration))
-}
-
-/// The crossing at `speed` (m/s) by an eigenvalue (1/s) whose mode is looked at where the speed is `seen_at` (m/s).
-fn critical(vibration: &Vibration, speed: f64, seen_at: f64, eigenvalue: Complex<f64>, kind: Instability) -> Critical {
-    let mode = mode(vibration, seen_at, eigenvalue, Polarisation::default());
-    Critical { speed, eigenvalue, kind, cable: responsible_cable(vibration, &mode) }
-}
-
-fn is_undamped(vibration: &Vibration) -> bool {
-    vibration.damping.alpha == 0.0 && vibration.damping.beta == 0.0
 }

@@ -1,17 +1,30 @@
 //! The scan: the growth rate at speeds a step apart, up to the first one at which something grows.
 
 use crate::mechanics::Vibration;
+use crate::stability::critical::outcome::{Critical, Instability, Outcome};
 use crate::stability::critical::progress::{Progress, Sample};
-use crate::stability::critical::{Instability, Method, Outcome, SCAN_STEP, critical, is_undamped};
 use crate::stability::steps::step;
 use crate::stability::{Eigenproblem, NotConverged, Spectra, Spectrum};
 
+/// The paper's step of the speed, in m/s.
+pub const SCAN_STEP: f64 = 0.1;
 /// Eigenvalues are known to this part of the largest frequency: real and imaginary parts below it are rounding.
 const ROUNDING_OF_EIGENVALUES: f64 = 1e-10;
 /// So far from a crossing, in m/s, the growth rate must be larger than its rounding.
 pub(super) const CERTAIN: f64 = 1e-3;
 /// Without damping every real part is zero at rest. Growth that begins there is looked for at this speed in m/s instead.
 const JUST_ABOVE_REST: f64 = 1e-3 * SCAN_STEP;
+
+/// How the critical speed is searched for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// By structure, at a cost that grows with the number of elements; where that leaves doubt, by a
+    /// scan like the dense one, with the eigenvalues of [`Spectra`].
+    #[default]
+    Structured,
+    /// By all eigenvalues at speeds [`SCAN_STEP`] apart, then bisection.
+    Dense,
+}
 
 /// What gives the scan its eigenvalues.
 #[derive(Debug)]
@@ -145,11 +158,16 @@ impl<'a> Scan<'a> {
         let eigenvalue = self.spectrum(seen_at).await?.rightmost();
         let oscillates = eigenvalue.im > ROUNDING_OF_EIGENVALUES * self.solver.scale();
         let kind = if oscillates { Instability::Flutter } else { Instability::Divergence };
-        Ok(Outcome::Found(critical(self.vibration, speed, seen_at, eigenvalue, kind)))
+        Ok(Outcome::Found(Critical::at(self.vibration, speed, seen_at, eigenvalue, kind)))
     }
 }
 
 /// Whether the growth rate may be rounding.
 pub(super) fn is_hidden(spectrum: &Spectrum) -> bool {
     spectrum.growth_rate().abs() <= spectrum.rounding(spectrum.rightmost())
+}
+
+/// Whether there is no damping at all.
+pub(super) fn is_undamped(vibration: &Vibration) -> bool {
+    vibration.damping.alpha == 0.0 && vibration.damping.beta == 0.0
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Comparison, NoComparison, limit};
+use super::comparison::{Comparison, NoComparison, limit};
 use crate::mechanics::{self, CableShape, Hub, LengthRates, Vibration};
 use crate::robot::{Cable, Damping, Linearisation, Robot, RobotSpec, Strain, TensionLaw, Vec2};
 use crate::stability::Eigenproblem;

@@ -4,13 +4,12 @@
 //! selection that any device computes within a second or two, one check after the other, so that people can see it done
 //! where they are.
 
+mod comparison;
 mod hanging;
 mod robots;
 mod strings;
 
-use crate::mechanics::StaticsError;
-use crate::robot::Faults;
-use crate::stability::NotConverged;
+pub use comparison::{Comparison, NoComparison};
 
 /// Something that this program computes, and what it should come to.
 #[derive(Debug)]
@@ -23,47 +22,6 @@ pub struct Check {
     pub unit: &'static str,
     /// Computes it, within some tens of milliseconds.
     pub run: fn() -> Result<Comparison, NoComparison>,
-}
-
-/// What a check has come to, all in the check's unit.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
-pub struct Comparison {
-    /// From the check's source.
-    pub expected: f64,
-    /// Computed here.
-    pub got: f64,
-    /// By how much the two may differ: what the mesh or the digits of the source leave.
-    pub tolerance: f64,
-}
-
-impl Comparison {
-    /// |got − expected|.
-    pub fn error(&self) -> f64 {
-        (self.got - self.expected).abs()
-    }
-
-    /// Whether the error is within the tolerance; NaN and infinity anywhere fail.
-    pub fn passes(&self) -> bool {
-        self.tolerance.is_finite() && self.error() <= self.tolerance
-    }
-}
-
-/// A check had nothing to compare with.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum NoComparison {
-    /// The robot is not physical.
-    #[error("the robot of the check is refused: {0}")]
-    Refused(#[from] Faults),
-    /// There is no static shape.
-    #[error("no static shape: {0}")]
-    Statics(#[from] StaticsError),
-    /// Eigenvalues could not be computed.
-    #[error(transparent)]
-    Eigenvalues(#[from] NotConverged),
-    /// Something that must be there is not.
-    #[error("there is no {0}")]
-    Nothing(&'static str),
 }
 
 const CLOSED_FORM: &str = "closed form";
@@ -226,11 +184,6 @@ pub static CHECKS: &[Check] = &[
         run: robots::along_its_line,
     },
 ];
-
-/// The limit of values at n and 2n elements whose error is a/n² + b/n⁴ + … (Richardson).
-fn limit(coarse: f64, fine: f64) -> f64 {
-    fine + (fine - coarse) / 3.0
-}
 
 #[cfg(test)]
 mod tests {

@@ -1,6 +1,6 @@
 //! Whole robots: the paper's against an independent program, and what must hold exactly.
 
-use super::{Comparison, NoComparison};
+use super::comparison::{Comparison, NoComparison};
 use crate::mechanics::{self, LengthRates, Statics};
 use crate::robot::{Cable, Damping, Linearisation, Motion, Robot, RobotSpec, Strain, TensionLaw, Vec2, paper_spec};
 use crate::stability::{self, Critical};

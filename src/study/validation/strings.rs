@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use nalgebra::{Const, DMatrix, DVector, Dyn, Matrix1, Matrix2, OMatrix, Vector1};
 
-use super::{Comparison, NoComparison, limit};
+use super::comparison::{Comparison, NoComparison, limit};
 use crate::mechanics::{Arrow, ArrowVector, Chain, Element, Hub, Material, Stiffness, Vibration};
 use crate::robot::{Damping, Linearisation, Strain, Vec2};
 use crate::stability::{self, CriticalSearch, Eigenproblem};
