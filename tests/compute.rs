@@ -347,3 +347,26 @@ fn the_largest_robot_shows_its_slowest_modes_at_once_and_gives_way_after_any_sli
         assert!(longest < 40 * unit, "{linearisation:?}: a slice of {longest:?}, ten shapes in {unit:?}");
     }
 }
+
+/// Without stiffness damping all modes of a mesh are near the axis and are counted one by one, which takes most of the
+/// search's time. It is not done at a stretch.
+#[test]
+fn a_search_that_counts_gives_way_after_any_step() {
+    let mut scenario = Scenario { elements_per_cable: 80, ..paper_at(0.0) };
+    (scenario.damping.alpha, scenario.damping.beta) = (0.5, 0.0);
+    let mut engine = Engine::default();
+    engine.submit(job(1, &scenario, CRITICAL));
+    let (mut whole, mut longest) = (Duration::ZERO, Duration::ZERO);
+    let end = loop {
+        let begun = Instant::now();
+        let replies = engine.work().expect("work");
+        let slice = begun.elapsed();
+        (whole, longest) = (whole + slice, longest.max(slice));
+        let mut updates = replies.into_iter().map(|reply| reply.update);
+        if let Some(Update::Critical(end)) = updates.find(|update| matches!(update, Update::Critical(_))) {
+            break end;
+        }
+    };
+    assert!(end.critical.is_some_and(|critical| critical.speed < 15.0), "a critical speed");
+    assert!(longest < whole / 8, "a slice of {longest:?}, {whole:?} in all");
+}
