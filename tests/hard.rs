@@ -415,7 +415,11 @@ fn check_no_jump(robot: &Robot, mut a: Pose, mut b: Pose) {
 fn check_border(robot: &Robot, mut inside: Vec2, mut outside: Vec2) -> &'static str {
     while (outside - inside).norm() > 1e-9 {
         let middle = 0.5 * (inside + outside);
-        *(if mechanics::solve(robot, middle).is_ok() { &mut inside } else { &mut outside }) = middle;
+        if mechanics::solve(robot, middle).is_ok() {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
     }
     let reason = mechanics::solve(robot, outside).expect_err("outside").reason;
     let inwards = (inside - outside).normalize();

@@ -73,7 +73,11 @@ fn every_task_is_the_analysis_of_its_pose() {
             assert_eq!(direction, motion(position, along).direction());
             assert_eq!(found, expected(&robot, position, along), "at {position:?} along {along:?}");
             assert_eq!(found, verdict(&robot, &motion(position, along), LIMIT).0);
-            *(if found.feasible() == Some(true) { &mut feasible } else { &mut infeasible }) += 1;
+            if found.feasible() == Some(true) {
+                feasible += 1;
+            } else {
+                infeasible += 1;
+            }
         }
     }
     assert!(feasible > 10 && infeasible > 5, "{feasible} {infeasible}");

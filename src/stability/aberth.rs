@@ -18,30 +18,34 @@ type C64 = Complex<f64>;
 
 /// Sweeps over the estimates that have not converged before the iteration is given up. The last few take the longest.
 const SWEEPS: usize = 150;
-/// An estimate has converged when its step is this part of it, or [`ROUNDING`] of the largest frequency and no longer much
-/// smaller than the one before.
+/// An estimate has converged when its step is this part of it. It has also converged when the step is
+/// [`ROUNDING_OF_STEPS`] of the largest frequency, and not much smaller than the step before.
 const CONVERGED: f64 = 1e-9;
-/// Where thousands of overdamped modes crowd together, or stiff modes are a million times faster than slow ones, rounding
-/// moves eigenvalues by more than that. After all sweeps steps of this part are let pass, if the sums over all eigenvalues
-/// are right all the same: six digits are promised.
+/// Rounding may move eigenvalues by more than that: where thousands of overdamped modes crowd together, or stiff modes are
+/// a million times faster than slow ones. After all sweeps a step of this part of its estimate is accepted if the sums over
+/// all eigenvalues are right. That leaves the six digits that are promised.
 const STAGNATED: f64 = 3e-7;
-/// When all have converged the next step would be about this part of each: it gets smaller faster than by Newton's method.
+/// When all estimates have converged, the next step would be about this part of each. Steps get smaller even faster than by
+/// Newton's method.
 const ITERATED: f64 = 1e-12;
-const ROUNDING: f64 = 1e-15;
-/// By this part an estimate is moved where its step cannot be computed.
+/// Steps below this part of the largest frequency are rounding.
+const ROUNDING_OF_STEPS: f64 = 1e-15;
+/// An estimate whose step cannot be computed is moved by this part of itself.
 const ASIDE: f64 = 1e-8;
 /// A step is at most this part of the estimate.
 const LARGEST_STEP: f64 = 0.5;
-/// By this part of the distance to the nearest other one estimates are moved off the real axis and off each other where pairs are not kept together.
+/// Where pairs are not kept together, estimates are moved off the real axis and off each other, by this part of the distance
+/// to the nearest other one.
 const SPREAD: f64 = 0.1;
-/// After so many failures the dense solver is asked at once.
+/// After this many failures the dense solver is asked at once.
 const PATIENCE: usize = 3;
-/// The dense solver is not asked about more degrees of freedom than these: it would take minutes.
+/// The dense solver is not asked about more degrees of freedom than this: it would take minutes.
 const LARGEST_DENSE: usize = 700;
-/// Sweeps over the slowest estimates where they are wanted first, so many more of them, and the part of itself to which a real
-/// one is real and two are the same.
+/// Sweeps over the slowest estimates where they are wanted first.
 const SLOWEST_SWEEPS: usize = 40;
+/// The iteration for the slowest ones goes on with this many estimates more than are wanted.
 const BESIDE: usize = 8;
+/// An eigenvalue is real if its imaginary part is below this part of it; two are the same if their difference is.
 const REAL: f64 = 1e-7;
 /// The sums over the eigenvalues must agree with what they are known to be to this part of their terms' sum.
 const AGREEMENT: f64 = 1e-7;
@@ -269,7 +273,7 @@ impl Spectra {
                 newton[j] = alone.norm();
                 let size = z.norm();
                 let before = std::mem::replace(&mut steps[j], step.norm());
-                let rounding = step.norm() <= ROUNDING * self.scale && step.norm() > 0.5 * before;
+                let rounding = step.norm() <= ROUNDING_OF_STEPS * self.scale && step.norm() > 0.5 * before;
                 *done = rounding || step.norm() <= CONVERGED * size;
                 largest_step = largest_step.max(step.norm() / size);
                 let largest = LARGEST_STEP * size;

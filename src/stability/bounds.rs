@@ -13,7 +13,6 @@
 //! - (1) ω (α + β ω̂² − v r) ≤ v² a ω̂,
 //! - (2) sqrt(ω̂² − v² e) − v s ω̂ ≤ ω ≤ v s ω̂ + sqrt(ω̂² + v² e).
 //!
-//!
 //! For an eigenvalue with Re λ ≥ 0 and |λ| ≥ R the real and imaginary parts of x*Q(λ, v)x/λ = 0 give
 //!
 //! - (3) α + β ω̂² − v r ≤ (max(0, v² s² − 1) ω̂² + v² e + v² a ω̂)/R,
@@ -25,18 +24,20 @@ use std::f64::consts::PI;
 
 use crate::mechanics::{Element, Vibration};
 use crate::robot::Damping;
+use crate::stability::bisect;
 
-/// Relative size of rounding in the flow at the elements' ends.
-const ROUNDING: f64 = 1e-9;
-/// Bisections of the bounds; they need few digits, and err to the safe side.
-const BISECTIONS: usize = 40;
+/// Flows at an end that two elements share are equal but for this part.
+const ROUNDING_OF_FLOW: f64 = 1e-9;
+/// Bounds need few digits, and err to the safe side: this many halvings give them.
+const HALVINGS: usize = 40;
 /// Bounds are moved by this factor to the safe side of their own rounding.
 const MARGIN: f64 = 1e-6;
 
-/// Below this part of the square of the lowest frequency at which an element swings by itself the mesh is as good as a cable.
+/// An element swings by itself at a certain frequency. Below this part of the square of the lowest one the mesh is as good as
+/// a cable.
 const SMOOTH: f64 = 0.25;
 
-/// Eigenvalues nearer to the axis than this part of what is between them count as far nearer.
+/// Eigenvalues count as sharp where their distance from the axis is below this part of the distance between them.
 const SHARP: f64 = 0.5;
 
 /// Bounds of what can cross, from the extremes over all elements. SI units.
@@ -75,9 +76,10 @@ struct Waves {
     slowness: f64,
     /// The square of a frequency (1/s²) above every undamped one of a mesh with these stiffnesses.
     highest: f64,
-    /// The longest time of a wave along a cable, in s: the modes of the cable per rad/s, times π.
+    /// The time that a wave takes along a cable, in s, for the cable in which it takes longest. Divided by π, it is the number
+    /// of modes of that cable per rad/s.
     travel: f64,
-    /// That of all cables together.
+    /// The sum of these times over all cables, in s.
     travels: f64,
 }
 
@@ -149,9 +151,9 @@ impl Bounds {
                 let one = Flow::of(element);
                 let largest = |pair: [f64; 2]| pair[0].abs().max(pair[1].abs());
                 if let Some([flow, rate]) = before {
-                    let jump = (one.through[0] - flow).abs() > ROUNDING * largest(one.through)
+                    let jump = (one.through[0] - flow).abs() > ROUNDING_OF_FLOW * largest(one.through)
                         || (one.rate[0] - rate).abs()
-                            > ROUNDING * (largest(one.rate) + largest(one.through).powi(2) / one.mass);
+                            > ROUNDING_OF_FLOW * (largest(one.rate) + largest(one.through).powi(2) / one.mass);
                     if jump {
                         return None;
                     }
@@ -193,11 +195,7 @@ impl Bounds {
         if safe(limit) {
             return limit;
         }
-        let (mut low, mut high) = (0.0, limit);
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (low + high);
-            *(if safe(middle) { &mut low } else { &mut high }) = middle;
-        }
+        let [low, _] = bisect([0.0, limit], HALVINGS, safe);
         low * (1.0 - MARGIN)
     }
 
@@ -225,11 +223,7 @@ impl Bounds {
         if !closed(top) {
             return top * (1.0 + MARGIN);
         }
-        let (mut open, mut shut) = (0.0, top);
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (open + shut);
-            *(if closed(middle) { &mut shut } else { &mut open }) = middle;
-        }
+        let [_, shut] = bisect([0.0, top], HALVINGS, |omega| !closed(omega));
         shut * (1.0 + MARGIN)
     }
 
@@ -251,11 +245,7 @@ impl Bounds {
         while shut.is_finite() && !closed(shut) {
             shut *= 2.0;
         }
-        let mut open = 0.0;
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (open + shut);
-            *(if closed(middle) { &mut shut } else { &mut open }) = middle;
-        }
+        let [_, shut] = bisect([0.0, shut], HALVINGS, |radius| !closed(radius));
         shut * (1.0 + MARGIN)
     }
 
@@ -292,8 +282,8 @@ impl Bounds {
         0.5 * self.damping.beta * self.smooth * self.across.travels / PI < SHARP
     }
 
-    /// A step from the frequency `omega` (rad/s) upwards in which so many of all cables' frequencies are expected as in
-    /// `low` of them where the mesh does not matter, or in `high` of them where it does.
+    /// A step from the frequency `omega` (rad/s) upwards that is expected to hold this many frequencies of all cables: `low`
+    /// where the mesh does not matter, and `high` where it does.
     pub(super) fn frequency_step(&self, omega: f64, [low, high]: [f64; 2]) -> f64 {
         let square = omega * omega;
         if !self.mesh_matters(omega) {
@@ -352,15 +342,11 @@ mod tests {
 
     /// The root of a function that rises from below zero at 0, by bisection.
     fn root(f: impl Fn(f64) -> f64) -> f64 {
-        let (mut low, mut high) = (0.0, 1.0);
+        let mut high = 1.0;
         while f(high) < 0.0 {
             high *= 2.0;
         }
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            *(if f(middle) < 0.0 { &mut low } else { &mut high }) = middle;
-        }
-        low
+        bisect([0.0, high], 60, |x| f(x) < 0.0)[0]
     }
 
     /// Of straight cables, where waves travel at c = sqrt(N/(λ μ)) and nothing varies along the cable but its flow.

@@ -18,24 +18,27 @@ use crate::stability::steps::{finish, step};
 
 type C64 = Complex<f64>;
 
-/// How much d ln D times the step's length may change along a step: 0.6 of what a zero does half a length from its middle.
+/// How much d ln D times the step's length may change along a step. A zero half a length beside the step's middle changes it
+/// by 2; this is 0.6 of that.
 const LARGEST_CHANGE: f64 = 1.2;
-/// How far the change of ln D may be from the trapezoidal rule: again 0.6 of what such a zero does, π/2 − 1.
+/// How far the change of ln D may be from the trapezoidal rule. Such a zero makes it π/2 − 1; again this is 0.6 of that.
 const LARGEST_ERROR: f64 = 0.34;
-/// First steps along the arc; those along the axis are so long that this many frequencies are expected in one.
+/// The arc is begun with this many steps.
 const FIRST_STEPS: u32 = 8;
+/// A step along the axis is expected to hold this many frequencies.
 const LARGEST_STEP: f64 = 1.4;
-/// Where a step is divided to see whether its parts agree: nowhere in particular, so that evenly spaced eigenvalues cannot
-/// look alike from both ends of both parts.
+/// A step is divided at this part of it, to see whether its parts agree. It is no simple fraction, so that evenly spaced
+/// eigenvalues cannot look alike from both ends of both parts.
 const INSIDE: f64 = 0.43;
-/// Evaluations per mode after which the count is given up, and so many at least: a mode near the axis takes some ten, one
-/// that is on it but for rounding 160.
+/// The count is given up after this many evaluations per mode. A mode near the axis takes some ten, and one that is on it but
+/// for rounding takes 160.
 const EFFORT_EACH: usize = 60;
+/// The count is not given up before this many evaluations.
 const LEAST_EFFORT: usize = 20_000;
-/// Divisions of a step: an eigenvalue is then on the axis but for rounding.
+/// A step is divided at most this often. What is left of it then has an eigenvalue on the axis but for rounding.
 const HALVINGS: u32 = 50;
-/// The turns add up to an integer but for rounding.
-const ROUNDING: f64 = 1e-3;
+/// The turns add up to an integer but for this.
+const ROUNDING_OF_TURNS: f64 = 1e-3;
 
 /// How many eigenvalues have a positive real part at `speed` (m/s), multiplicity included; `None` where it cannot be
 /// told: one of them is on the axis, the effort would be too great, or the bounds do not hold.
@@ -82,7 +85,7 @@ impl Counter {
             return by_argument(&mut self.axis, &self.bounds, speed, radius).await;
         }
         // All modes of the mesh may be near the axis, at distances far below those between them: that many turns of D are
-        // not followed safely. But there are only so many eigenvalues.
+        // not followed safely. But the number of eigenvalues is finite, and they can all be had.
         let spectra = match &mut self.spectra {
             Some(spectra) => spectra,
             none => none.insert(Spectra::new(vibration).ok()?),
@@ -122,7 +125,7 @@ async fn by_argument(axis: &mut Axis, bounds: &Bounds, speed: f64, radius: f64) 
     let turns = (arc - along_axis) / PI;
     let whole = turns.round();
     // Zero or more, and far below 2^32: each has been met on the way.
-    let sound = (turns - whole).abs() < ROUNDING && (0.0..path.effort as f64).contains(&whole);
+    let sound = (turns - whole).abs() < ROUNDING_OF_TURNS && (0.0..path.effort as f64).contains(&whole);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small whole number, as just seen")]
     sound.then_some(Count { unstable: whole as usize, nearest, certain: true })
 }

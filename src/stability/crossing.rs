@@ -19,19 +19,21 @@ use crate::stability::steps::step;
 
 type C64 = Complex<f64>;
 
-/// A cell is so wide that it is expected to hold this many of all cables' frequencies, fewer where the mesh tells how many
-/// there are, and at most so high that one cable's move by this part of their spacing: no turn of the phase, which takes
-/// two, is overlooked between its corners.
+/// A cell is expected to hold this many of all cables' frequencies: the second number counts where the mesh tells how many
+/// there are. A turn of the phase takes two, so that none is overlooked between a cell's corners.
 const LARGEST_WIDTH: [f64; 2] = [1.4, 1.0];
+/// A cell is at most so high that the frequencies of one cable move by this part of their spacing.
 const LARGEST_MOVE: f64 = 0.35;
-/// A strip is so high, in m/s; at low speeds, where frequencies hardly move, up to twice that.
+/// The height of a strip in m/s.
 const STRIP: f64 = 0.5;
+/// The largest height of a strip in m/s, at low speeds, where frequencies hardly move.
 const LARGEST_STRIP: f64 = 1.0;
-/// At high speeds strips are so large a part of the speed where they begin, and up to twice that: their number grows with
-/// the logarithm of the limit.
+/// At high speeds the height of a strip is this part of the speed where it begins, or up to twice that. So the number of
+/// strips grows with the logarithm of the limit.
 const STRIP_PART: f64 = 0.01;
-/// Evaluations per mode after which a strip is left to counting, and so many at least.
+/// After this many evaluations per mode a strip is left to counting.
 const EFFORT_EACH: usize = 100;
+/// A strip is not left to counting before this many evaluations.
 const LEAST_EFFORT: usize = 10_000;
 /// Cells smaller than this part of the first ones are in doubt.
 const SMALLEST_CELL: f64 = 1e-7;
@@ -43,18 +45,19 @@ const NEWTON_STEPS: usize = 25;
 const CONVERGED: f64 = 1e-11;
 /// Two zeros nearer than this part of a cell are the same.
 const SAME: f64 = 1e-6;
-/// This part of a strip below the answer the unstable eigenvalues are counted: none.
+/// The unstable eigenvalues are counted this part of a strip below the answer. There must be none.
 const BELOW: f64 = 1e-3;
-/// Where the plane leaves doubt the unstable eigenvalues are counted so often, in m/s.
+/// Where the plane leaves doubt, the unstable eigenvalues are counted at speeds this far apart, in m/s.
 const COUNT_STEP: f64 = 0.1;
-/// Or in such parts of the speed, at high speeds.
+/// At high speeds the distance is this part of the speed.
 const COUNT_PART: f64 = 0.002;
-/// A crossing is had from counts to this part of its speed, or of 1 m/s.
+/// Counts give a crossing to this part of its speed, or of 1 m/s.
 const COUNTED_TO: f64 = 1e-11;
-/// Where a count meets an eigenvalue on the axis, it is made so much lower, in m/s; so often.
+/// Where a count meets an eigenvalue on the axis, it is made again at a speed that is lower by this, in m/s.
 const ASIDE: f64 = 1e-4;
+/// A count is tried at most this many times.
 const TRIES: u32 = 8;
-/// Newton's method moves a crossing that was had from counts by no more than this, in m/s.
+/// Newton's method moves a crossing that counts have given by no more than this, in m/s.
 const POLISHED: f64 = 1e-6;
 
 /// How the search ended where it could tell.
@@ -296,7 +299,11 @@ impl Plane {
         let (mut low, mut high, mut speed) = (from, to, 0.5 * (from + to));
         for _ in 0..BISECTIONS {
             let here = self.counter.axis.at(C64::new(0.0, 0.0), speed);
-            *(if negative(here.log) == negative(before) { &mut low } else { &mut high }) = speed;
+            if negative(here.log) == negative(before) {
+                low = speed;
+            } else {
+                high = speed;
+            }
             let newton = speed - 1.0 / here.by_speed.re;
             let next = if low < newton && newton < high { newton } else { 0.5 * (low + high) };
             if (next - speed).abs() <= CONVERGED * self.cell[1] {

@@ -2,6 +2,7 @@
 
 mod aberth;
 mod axis;
+mod bisection;
 mod bounds;
 mod characteristic;
 mod count;
@@ -21,6 +22,7 @@ mod ties;
 mod undamped;
 
 pub use aberth::Spectra;
+pub use bisection::bisect;
 pub use characteristic::{Characteristic, LogDeterminant};
 pub use count::unstable_eigenvalues;
 pub use critical::{

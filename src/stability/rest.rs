@@ -11,14 +11,14 @@ use crate::stability::modes::responsible_cable;
 use crate::stability::steps::step;
 use crate::stability::{Critical, Instability, Mode, NotConverged, Polarisation, Spectra, mode};
 
-/// Growth below this part of what it is the sum of is none: modes of which paying out takes what reeling in gives, or
-/// that no moving cable has a share in.
+/// A mode's growth is a sum over the elements. Below this part of the terms' sizes it is none: the cables that are paid out
+/// take what the others give, or no moving cable has a share in the mode.
 const NONE: f64 = 1e-9;
-/// Frequencies are apart when they differ by so many times what they are known to.
+/// Two frequencies are apart when they differ by more than this many times their uncertainty.
 const APART: f64 = 1e3;
 /// An eigenvalue is known to this part of the largest frequency at best.
 const ROUNDING_OF_EIGENVALUES: f64 = 1e-15;
-/// Modes are looked at in groups of so many, the group with the highest frequencies first.
+/// Modes are looked at in groups of this size, the group with the highest frequencies first.
 const AT_ONCE: usize = 16;
 
 /// What the modes at rest tell.
@@ -83,7 +83,7 @@ fn growth(vibration: &Vibration, mode: &Mode) -> [f64; 2] {
                 transfer += flow[(i, j)] * product;
                 mass += inertia[(i, j)] * product;
             }
-            // The symmetric part alone: the rest is large, and nothing but rounding.
+            // The symmetric part counts alone. The rest is large, and its sum is nothing but rounding.
             let own = [0, 1].map(|i| flow[(i, i)].abs() * pair[i].norm_squared());
             size += own[0] + own[1];
         }

@@ -7,9 +7,10 @@ use nalgebra::Complex;
 use crate::stability::NotConverged;
 
 /// Real parts below this part of the largest |λ| are zero to rounding.
-const ROUNDING: f64 = 1e-13;
+const ROUNDING_OF_REAL_PARTS: f64 = 1e-13;
 
-/// How far a solver's rounding may have moved an eigenvalue: by a part of itself, and by so many 1/s, times its condition.
+/// How far a solver's rounding may have moved an eigenvalue: by the `relative` part of it, and by `absolute` (1/s) times its
+/// condition.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Rounding {
     pub relative: f64,
@@ -75,7 +76,7 @@ impl Spectrum {
         Ok(Self { speed, solver, rounding, distinct: eigenvalues, multiplicity })
     }
 
-    /// The same, of which no eigenvalue is known better than to `absolute` (1/s).
+    /// The same spectrum, whose eigenvalues are known to `absolute` (1/s) at best.
     pub(super) fn known_to(mut self, absolute: f64) -> Self {
         self.rounding.absolute = self.rounding.absolute.max(absolute);
         self
@@ -121,7 +122,7 @@ impl Spectrum {
 
     /// Whether every Re λ < 0, by more than the rounding of a robot without damping.
     pub fn is_stable(&self) -> bool {
-        self.growth_rate() < -ROUNDING * self.largest()
+        self.growth_rate() < -ROUNDING_OF_REAL_PARTS * self.largest()
     }
 
     /// The largest |λ|, in 1/s.
@@ -153,7 +154,7 @@ mod tests {
     /// Of a robot without damping real parts are rounding of the largest frequency.
     #[test]
     fn what_is_rounding_is_not_stable() {
-        let rounding = 400.0 * ROUNDING;
+        let rounding = 400.0 * ROUNDING_OF_REAL_PARTS;
         for (growth, stable) in [(-1.0, true), (-1.1 * rounding, true), (-0.9 * rounding, false), (rounding, false)] {
             assert_eq!(spectrum(growth).is_stable(), stable, "{growth}");
             assert_eq!((spectrum(growth).growth_rate(), spectrum(growth).speed()), (growth, 1.5));

@@ -11,10 +11,11 @@ use crate::stability::steps::{finish, step};
 
 type C64 = Complex<f64>;
 
-/// A mode's next eigenvalue is within this part of its size of what was predicted …
+/// A mode's next eigenvalue differs from the prediction by at most this part of its size …
 const NEAR: f64 = 0.25;
-/// … and so many of its last steps, or, without a step yet, within that part.
+/// … and by at most this many times the mode's last step.
 const STEPS: f64 = 4.0;
+/// Of a mode without a step yet it differs by at most this part of its size.
 const NEAR_AT_FIRST: f64 = 0.5;
 
 /// One mode over the speeds at which it exists.

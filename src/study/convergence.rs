@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 use crate::stability::{Critical, Instability};
 use crate::study::{Status, Verdict};
 
-/// Of a value: smaller differences are those of the search, not of the mesh.
-const ROUNDING: f64 = 1e-8;
+/// Differences below this part of a value are those of the search, not of the mesh.
+const ROUNDING_OF_SEARCH: f64 = 1e-8;
 /// Frequencies of one mode on two successive meshes differ by at most this part.
 const SAME_MODE: f64 = 0.25;
 /// An order that three meshes show counts if it is the known one times a factor in this range.
@@ -88,12 +88,11 @@ pub enum NoLimit {
 /// `today` elements.
 ///
 /// With v at n, 2n and 4n elements, 4n the finest mesh, the order seen is p = log₂ ((v₂ₙ − vₙ)/(v₄ₙ − v₂ₙ)), and the
-/// limit that an order p promises is v₄ₙ + (v₄ₙ − v₂ₙ)/(2ᵖ − 1). What the order seen and the [known one](known_order)
-/// promise are on either side of the limit once the meshes are fine enough; their middle is told, and their distance is
-/// how far it may be off, but at least a quarter of what extrapolation adds to v₄ₙ, and all of that where the order seen is
-/// not one of fine meshes. Where there are only two meshes, the known order is taken, and the whole of what extrapolation
-/// adds is in doubt. The meshes used must agree in kind, cable and (to a quarter) frequency. Meshes of
-/// which nothing is known are passed over.
+/// limit that an order p promises is v₄ₙ + (v₄ₙ − v₂ₙ)/(2ᵖ − 1). Once the meshes are fine enough, the limit lies between
+/// the promises of the order seen and of the [known one](known_order). Their middle is told, and their distance is the
+/// uncertainty. It is at least a quarter of what extrapolation adds to v₄ₙ, and all of that if the order seen is not one of
+/// fine meshes. With two meshes only, the known order is taken, and all that extrapolation adds is uncertain. The meshes must
+/// agree in kind, cable and (to a quarter) frequency. A mesh without a known verdict is passed over.
 pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
     let mut meshes: Vec<&(usize, Verdict)> =
         meshes.iter().filter(|(n, verdict)| *n > 0 && verdict.status() != Status::Failed).collect();
@@ -134,7 +133,7 @@ pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
         let (n, before) = *coarser.first()?;
         let value_here = value(at_finest);
         let change = (value_here - value(before)) / ((finest as f64 / n as f64).powf(known) - 1.0);
-        let uncertainty = change.abs().max(ROUNDING * value_here.abs());
+        let uncertainty = change.abs().max(ROUNDING_OF_SEARCH * value_here.abs());
         Some((Estimate { limit: value_here + change, uncertainty }, None))
     };
     let Some((speed, order)) = extrapolated(&|critical| critical.speed) else {
@@ -167,7 +166,7 @@ pub fn richardson(meshes: &[(usize, Verdict)], today: usize) -> Convergence {
 fn from_three(quarter: f64, half: f64, finest: f64, kind: Instability) -> Option<(Estimate, Option<f64>)> {
     let known = known_order(kind);
     let (first, second) = (half - quarter, finest - half);
-    let rounding = ROUNDING * finest.abs();
+    let rounding = ROUNDING_OF_SEARCH * finest.abs();
     let by_known = finest + second / (known.exp2() - 1.0);
     if second.abs() <= rounding && first.abs() <= rounding {
         return Some((Estimate { limit: by_known, uncertainty: rounding }, None));

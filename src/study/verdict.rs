@@ -140,8 +140,8 @@ async fn along(robot: &Robot, statics: Statics, direction: Vec2, limit: f64) -> 
     (verdict, local.wave_limit.map(|limit| limit.speed))
 }
 
-/// By this part of the lowest speed so far, or of 1 m/s, other directions are searched beyond it: more than a search looks
-/// around a crossing, 0.0005 m/s.
+/// Other directions are searched up to the lowest speed so far and beyond it, by this part of that speed or of 1 m/s. That is
+/// more than the 0.0005 m/s that a search looks around a crossing.
 const BEYOND: f64 = 1e-3;
 
 /// In which directions the platform moves through a pose.
@@ -150,7 +150,7 @@ const BEYOND: f64 = 1e-3;
 pub enum Directions {
     /// In this one, of any length but zero.
     One(Vec2),
-    /// In so many directions, equally spaced and beginning with +x, of which the worst counts.
+    /// In this many directions, equally spaced and beginning with +x; the worst of them counts.
     Worst(usize),
 }
 

@@ -156,7 +156,11 @@ fn bisect(drawn: &Drawn, mut stable: f64, mut unstable: f64) -> Option<f64> {
     while unstable - stable > 0.1 * AGREEMENT {
         let middle = 0.5 * (stable + unstable);
         let grows = drawn.referee.growth_rate(middle)? > threshold(drawn);
-        *(if grows { &mut unstable } else { &mut stable }) = middle;
+        if grows {
+            unstable = middle;
+        } else {
+            stable = middle;
+        }
     }
     Some(unstable)
 }

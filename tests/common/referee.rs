@@ -129,7 +129,11 @@ impl Referee {
                 let (mut stable, mut unstable) = (before, speed);
                 while unstable - stable > 1e-9 {
                     let middle = 0.5 * (stable + unstable);
-                    *(if grows(middle) { &mut unstable } else { &mut stable }) = middle;
+                    if grows(middle) {
+                        unstable = middle;
+                    } else {
+                        stable = middle;
+                    }
                 }
                 return Some(unstable);
             }

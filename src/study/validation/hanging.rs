@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::comparison::{Comparison, NoComparison, limit};
 use crate::mechanics::{self, CableShape, Hub, LengthRates, Vibration};
 use crate::robot::{Cable, Damping, Linearisation, Robot, RobotSpec, Strain, TensionLaw, Vec2};
-use crate::stability::Eigenproblem;
+use crate::stability::{Eigenproblem, bisect};
 
 /// A cable of the table in docs/theory.md section 10: span 10 m, rise 5 m, EA = 6250 N, 3.924 N/m, engineering strain.
 pub struct Case {
@@ -151,13 +151,10 @@ pub fn shallow() -> Result<Comparison, NoComparison> {
 fn first_root(lambda_squared: f64) -> Result<f64, NoComparison> {
     // Times cos z there is no pole; it falls from sin(π/2) = 1 to where the polynomial wins.
     let f = |z: f64| z.sin() - (z - 4.0 / lambda_squared * z * z * z) * z.cos();
-    let (mut low, mut high) = (0.5 * PI, 1.5 * PI);
-    if f(low) * f(high) >= 0.0 {
+    let around = [0.5 * PI, 1.5 * PI];
+    if f(around[0]) * f(around[1]) >= 0.0 {
         return Err(NoComparison::Nothing("sign change"));
     }
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if f(middle) * f(low) > 0.0 { low = middle } else { high = middle }
-    }
+    let [low, high] = bisect(around, 60, |z| f(z) * f(around[0]) > 0.0);
     Ok((low + high) / PI)
 }
