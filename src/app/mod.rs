@@ -216,7 +216,7 @@ impl Tautline {
         self.present.pinned.as_ref().map(|pinned| (&pinned.scenario, pinned.is_complete()))
     }
 
-    /// The topics of which a study is at work, of the present design or the pinned one.
+    /// The topics that have a study at work, for the present design or the pinned one.
     pub fn at_work(&self) -> Vec<Topic> {
         studies::TOPICS.into_iter().filter(|topic| self.pool.is_at_work(*topic)).collect()
     }

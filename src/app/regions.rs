@@ -2,7 +2,7 @@
 
 use eframe::egui::Rect;
 
-/// Where things were drawn in the last frame, in points; of what was not drawn lately, where it was.
+/// Where things were drawn in the last frame, in points. A thing that was not drawn keeps its last place.
 #[derive(Clone, Copy, Debug)]
 pub struct Regions {
     /// The canvas.

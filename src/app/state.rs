@@ -191,7 +191,7 @@ impl Playback {
     /// Phases in one oscillation when it is looked at step by step.
     const STEPS: f64 = 24.0;
 
-    /// Stops, and goes on by so many steps.
+    /// Stops, and goes on by this number of steps.
     pub fn step(&mut self, steps: f64) {
         self.playing = false;
         self.phase = (self.phase + steps * TAU / Self::STEPS).rem_euclid(TAU);

@@ -312,7 +312,7 @@ impl Pose {
         Reply { revision: self.revision, update }
     }
 
-    /// Does a slice of what is served first; tells whether that is complete.
+    /// Does a slice of the pose, which is served first; tells whether it is complete.
     fn first_slice(&mut self) -> bool {
         let begun = Instant::now();
         while begun.elapsed() < SLICE {
@@ -447,7 +447,7 @@ impl Pose {
         vec![self.reply(Update::Curve(Vec::new()))]
     }
 
-    /// One slice of the search or of what follows.
+    /// One slice of the search, or of the work that follows it.
     fn slice(&mut self) -> Slice {
         let begun = Instant::now();
         let mut replies = loop {

@@ -145,7 +145,7 @@ pub struct SearchEnd {
 }
 
 impl SearchEnd {
-    /// The analysis of which `report` is all but this answer.
+    /// The whole analysis: `report` with the critical speed, which it lacks.
     pub fn completed(&self, mut report: Report) -> Report {
         match &self.failure {
             Some(reason) => report.set_failed(reason.clone(), self.searched_up_to),

@@ -35,7 +35,7 @@ pub struct MapOptions {
 }
 
 impl MapOptions {
-    /// Reads `{"nx": N, "ny": N, "direction": …, "maxSpeed": V}`, of which the latter two may be missing. A direction is
+    /// Reads `{"nx": N, "ny": N, "direction": …, "maxSpeed": V}`, where the last two may be missing. A direction is
     /// one of the command line's words, `"motion"` for the scenario's own, or a vector `[dx, dy]`.
     ///
     /// # Errors

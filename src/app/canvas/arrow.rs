@@ -13,7 +13,7 @@ const BORDER: f32 = 12.0;
 const LEAST: f32 = 16.0;
 /// A scale with longer arrows comes back where they need no more than this part of the room.
 const COMFORTABLE: f32 = 0.7;
-/// At the first scale so many m/s are as long as the robot is wide.
+/// At the first scale an arrow of this many m/s is as long as the robot is wide.
 const WHOLE: f64 = 40.0;
 
 /// How speeds are drawn as lengths.
@@ -58,7 +58,7 @@ impl Arrow {
         self.gap + length
     }
 
-    /// The speed in m/s of an arrow whose tip is so many points from the platform's middle, and what a point is then.
+    /// The speed in m/s of an arrow whose tip is this number of points from the platform's middle, and the speed per point.
     pub fn speed(&self, away: f32, scale: f64) -> [f64; 2] {
         let point = self.step / scale;
         [f64::from((away - self.gap).max(0.0)) * point, point]

@@ -76,7 +76,7 @@ pub(super) fn prepare(outbox: &Outbox) {
     outbox.context.add_plugin(Copies(outbox.sender.clone()));
 }
 
-/// Takes the texts for the clipboard out of what the drawing library puts out.
+/// Takes the texts for the clipboard out of the drawing library's output.
 struct Copies(Sender<Command>);
 
 impl Plugin for Copies {

@@ -29,7 +29,7 @@ pub(super) struct Queue {
 #[derive(Debug)]
 struct Waiting {
     event: Event,
-    /// It is the press of a finger, of which it is not known yet what it wants.
+    /// It is the press of a finger. What the finger wants is not known yet.
     finger: bool,
 }
 

@@ -285,7 +285,7 @@ impl Unit {
         Self { name, dimension, ratio: number / stored, exponent, stored }
     }
 
-    /// Whether it is a power of ten of what the program counts in, so that digits stay as they are.
+    /// Whether it is a power of ten times the unit that the program counts in, so that digits stay as they are.
     fn is_decimal(self) -> bool {
         self.ratio.to_bits() == 1.0_f64.to_bits()
     }
@@ -306,7 +306,7 @@ impl Unit {
         }
     }
 
-    /// What is stored where so many units are shown.
+    /// The stored value for this number of units on the screen.
     pub fn to_stored(self, shown: f64) -> f64 {
         shift(shown * self.ratio, self.exponent)
     }

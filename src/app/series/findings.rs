@@ -6,7 +6,7 @@ use super::Along;
 use super::segments::{Sample, segments};
 use crate::scenario::report::sentence;
 
-/// A finding counts from so many places on …
+/// A finding counts from this number of places on …
 const PLACES: usize = 5;
 /// … and where the quantity changes by this part altogether.
 const CHANGE: f64 = 0.02;

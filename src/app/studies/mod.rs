@@ -17,7 +17,7 @@ use std::collections::VecDeque;
 use crate::compute::protocol::{Revision, StudyJob, StudyNews, Topic};
 use crate::study::Answer;
 
-/// All topics of which there are studies. The joining of modes is kept apart, in [`Joined`].
+/// All topics that have studies. The joining of modes is kept apart, in [`Joined`].
 pub const TOPICS: [Topic; 5] = [Topic::Line, Topic::Map, Topic::Polar, Topic::Campbell, Topic::Convergence];
 /// So many finished studies of each topic are remembered, for undone changes and tabs that are opened again.
 const REMEMBERED: usize = 4;
@@ -106,7 +106,7 @@ struct Subject {
     revision: Revision,
     done: usize,
     newest: Option<Known>,
-    /// The last one of which a picture was there.
+    /// The last study that had a picture.
     earlier: Option<Known>,
     finished: VecDeque<Known>,
 }

@@ -47,7 +47,7 @@ impl Wish {
         Self { scenario, study }
     }
 
-    /// The critical speed of `scenario` on meshes of so many elements per cable; `None` where it is not physical.
+    /// The critical speed of `scenario` on meshes with these numbers of elements per cable; `None` where it is not physical.
     pub fn meshes(scenario: &Scenario, counts: Vec<usize>) -> Option<Self> {
         let (_, motion) = scenario.to_robot().ok()?;
         let (position, direction) = (motion.position(), motion.direction());

@@ -63,7 +63,7 @@ fn id(title: &str) -> Id {
     Id::unique(("window", title))
 }
 
-/// A window in the middle, so many points wide where there is room, that scrolls where the screen is small.
+/// A window in the middle, with this width in points where there is room. It scrolls where the screen is small.
 fn window(context: &Context, title: &str, width: f32, open: &mut bool, content: impl FnOnce(&mut Ui)) {
     let room = context.content_rect();
     Window::new(title)

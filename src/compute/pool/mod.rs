@@ -38,7 +38,7 @@ impl Pool {
         self.shared.with(|core| core.scheduler.prepare());
     }
 
-    /// Begins a study in the place of its topic's present one, of which nothing more comes.
+    /// Begins a study in the place of its topic's present one, which ends.
     pub fn want(&mut self, job: StudyJob) {
         self.shared.with(|core| {
             core.scheduler.want(job);

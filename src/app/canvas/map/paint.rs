@@ -57,7 +57,7 @@ impl Texture {
     }
 }
 
-/// The colour of what a point shows.
+/// The colour of a point.
 fn colour(picture: &Picture, cell: Cell, visuals: &Visuals) -> Color32 {
     let colour = match cell {
         Cell::Value(value) if picture.quantity == MapQuantity::Growth => theme::diverging(picture.part(value), visuals),
@@ -263,8 +263,7 @@ pub fn legend(
     }
 }
 
-/// The colour bar with its ticks.
-/// The colour bar, with values in a unit of which one of the picture's is so many.
+/// The colour bar with its ticks. Its numbers are the picture's values times `unit`.
 fn scale(painter: &Painter, visuals: &Visuals, bar: Rect, picture: &Picture, [low, high]: [f64; 2], unit: f64) {
     let text = visuals.text_color();
     let mut strip = Mesh::default();

@@ -78,7 +78,7 @@ fn upload(context: &Context, part: &Part, pixels_per_point: f32) -> Option<Textu
     Some(context.load_texture(*name, ColorImage::new(target, pixels), TextureOptions::LINEAR))
 }
 
-/// The same picture with fewer pixels, each the mean of what it covers. The screen's own scaling would look at four
+/// The same picture with fewer pixels. Each is the mean of the pixels that it covers. The screen's own scaling would look at four
 /// pixels only and lose thin strokes.
 fn shrink(ink: &[u8], size: [usize; 2], target: [usize; 2]) -> Vec<u8> {
     let [columns, rows] = [0, 1].map(|i| (0..target[i]).map(|k| covered(k, target[i], size[i])).collect::<Vec<_>>());
