@@ -116,7 +116,7 @@ pub struct RobotSpec {
 /// use tautline::robot::{Robot, RobotSpec, paper_spec};
 ///
 /// let heavier = Robot::new(RobotSpec { platform_mass: 3.0, ..paper_spec() })?;
-/// assert_eq!((heavier.cables.len(), heavier.pair()), (4, [0, 1]));
+/// assert_eq!((heavier.cables.len(), heavier.equilibrium()), (4, &[0, 1][..]));
 ///
 /// // All faults are told at once, each with its field, the value found and what is allowed.
 /// let refused = Robot::new(RobotSpec { platform_mass: 0.0, gravity: -9.81, ..paper_spec() });
