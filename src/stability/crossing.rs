@@ -6,9 +6,8 @@
 //! Newton's method gives a zero that is suspected in a cell; dividing it out lets the rest of the cell be searched like
 //! any other. Where anything stays in doubt the search says so. docs/theory.md section 11.
 
-use std::collections::HashMap;
-
 use nalgebra::Complex;
+use rustc_hash::FxHashMap;
 
 use super::axis::Axis;
 use super::bounds::Bounds;
@@ -104,7 +103,7 @@ impl FirstCrossing {
         let bounds = Bounds::new(vibration).ok_or(Doubt::Unbounded)?;
         let start = bounds.lowest_speed(limit).max(start).min(limit);
         let plane = Plane {
-            known: HashMap::new(),
+            known: FxHashMap::default(),
             trend: Trend::default(),
             zeros: Vec::new(),
             evaluations: 0,
@@ -238,7 +237,7 @@ impl Trend {
 struct Plane {
     counter: Counter,
     /// The corners of the strip, which neighbouring cells share, by the bits of ω and v.
-    known: HashMap<[u64; 2], Corner>,
+    known: FxHashMap<[u64; 2], Corner>,
     trend: Trend,
     zeros: Vec<Zero>,
     evaluations: usize,
@@ -604,7 +603,7 @@ mod tests {
     fn plane(vibration: &Vibration) -> Plane {
         Plane {
             counter: Counter::new(Bounds::new(vibration).unwrap(), Axis::new(Characteristic::new(vibration))),
-            known: HashMap::new(),
+            known: FxHashMap::default(),
             trend: Trend::default(),
             zeros: Vec::new(),
             evaluations: 0,
