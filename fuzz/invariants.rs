@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use base64::{Engine as _, prelude::BASE64_URL_SAFE_NO_PAD};
 use tautline::cli::{self, Start, Streams};
 use tautline::compute::protocol::{
-    Batch, Incoming, Job, ModeChoice, Outgoing, Reply, Request, StudyJob, Task, Topic, Update, Which,
+    Batch, Incoming, Job, ModeChoice, Outgoing, Reply, Request, StudyJob, Task, Update, Which,
 };
 use tautline::compute::{Engine, PoolWorker};
 use tautline::robot::{Faults, Linearisation, Strain};
@@ -145,7 +145,7 @@ pub fn worker(bytes: &[u8]) -> bool {
     }
 
     let mut pool_worker = PoolWorker::default();
-    let topic = Topic::of(&study);
+    let topic = study.topic();
     let study = Task::Study { generation: 1, job: StudyJob { revision: 1, scenario, study } };
     let batch = Task::Batch(Batch { topic, generation: 1, places: places.clone() });
     for task in [study, batch] {
@@ -233,6 +233,7 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
             Study::Polar { position, count: 3, limit },
             Study::Speeds { position, direction, to: 9.0, count: 3 },
             Study::Elements { position, direction, counts: vec![2, 3], limit },
+            Study::Border { grid },
         ];
         let study = studies[i % studies.len()].clone();
         let along_x = i % 2 == 0;
@@ -351,6 +352,7 @@ fn bound(study: &mut Study) {
                 values.truncate(MOST_ELEMENTS);
             }
         }
+        Study::Border { grid } => grid.nx = grid.nx.min(MOST_ELEMENTS),
         Study::Speeds { .. } => {}
     }
 }

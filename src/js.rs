@@ -75,7 +75,7 @@ impl MapStudy {
         let (verdict, wave_limit) = match self.study.answer(&self.robot, index) {
             Answer::Critical { verdict, wave_limit, .. } => (verdict, wave_limit),
             // Not what this study asks for.
-            Answer::Growth(_) | Answer::Spectrum(_) | Answer::Modes(_) => (Verdict::Unknown, None),
+            _ => (Verdict::Unknown, None),
         };
         let at = self.grid.position(index);
         let found = Found::from(verdict.critical().map(CriticalReport::from));

@@ -2,7 +2,7 @@
 
 #[cfg(all(feature = "app", target_arch = "wasm32"))]
 fn main() {
-    use tautline::app::{Start, Tautline, take_kept, take_link};
+    use tautline::app::{Start, Tautline, is_embedded, take_kept, take_link};
     use wasm_bindgen::JsCast as _;
 
     console_error_panic_hook::set_once();
@@ -16,7 +16,8 @@ fn main() {
     };
     wasm_bindgen_futures::spawn_local(async move {
         let create: eframe::AppCreator<'static> = Box::new(|context| {
-            Ok(Box::new(Tautline::new(context, Start { scenario: take_kept(), link: take_link(), tour: true })))
+            let (scenario, link, embedded) = (take_kept(), take_link(), is_embedded());
+            Ok(Box::new(Tautline::new(context, Start { scenario, link, tour: !embedded, embedded })))
         });
         if let Err(error) = eframe::WebRunner::new().start(canvas, eframe::WebOptions::default(), create).await {
             // The page hears of it and tells it.
@@ -47,7 +48,7 @@ fn main() -> std::process::ExitCode {
         if let Some(theme) = theme {
             context.egui_ctx.set_theme(theme);
         }
-        Ok(Box::new(Tautline::new(context, Start { scenario, link: None, tour: true })))
+        Ok(Box::new(Tautline::new(context, Start { scenario, tour: true, ..Start::default() })))
     });
     match eframe::run_native("Tautline", options, create) {
         Ok(()) => std::process::ExitCode::SUCCESS,

@@ -185,6 +185,50 @@ fn an_infeasible_pose_is_a_complete_answer_with_what_can_be_drawn() {
     );
     let drawn: Vec<bool> = failed.shapes.iter().map(Option::is_some).collect();
     assert_eq!(drawn, [false, false, true, true], "the stiffening cables have a shape");
+    // Its straight line and that of cable 2 have to balance 2 kg and what the drawn cables pull with at their first
+    // element, less half of that element's weight. An element is stretched by 1 %, so that much is its weight in doubt.
+    let gravity = 9.81;
+    let mut load = [0.0, 2.0 * gravity];
+    for shape in failed.shapes.iter().flatten() {
+        let [dx, dy] = [0, 1].map(|i| shape.nodes[1][i] - shape.nodes[0][i]);
+        let length = dx.hypot(dy);
+        let pull = shape.axial_forces[0] / length;
+        load = [load[0] - pull * dx, load[1] - (pull * dy - 0.5 * 0.4 * gravity * length)];
+    }
+    let line = |[x, y]: [f64; 2]| [x / x.hypot(y), y / x.hypot(y)];
+    let (first, second) = (line([-18.0, 5.0]), line([2.0, 5.0]));
+    let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+    let pull = cross(load, second) / cross(first, second);
+    let push = failed.push.expect("a push");
+    assert!(push > 0.0 && (push + pull).abs() < 0.01 * push + 0.1, "{push} N, by hand {} N", -pull);
+}
+
+#[test]
+fn what_a_disturbance_becomes_is_the_mode_that_grows_most_at_the_present_speed() {
+    let present = ModeChoice { which: Which::Present, along_x: false };
+    let mut engine = Engine::default();
+    for (revision, speed) in [(1, 5.0), (2, 12.0)] {
+        let mut scenario = paper_at(0.0);
+        scenario.motion.speed = speed;
+        engine.submit(job(revision, &scenario, present));
+        let replies = finish(&mut engine);
+        let mut shapes = replies.iter().filter_map(|reply| match &reply.update {
+            Update::Shape(shape) => Some(shape),
+            _ => None,
+        });
+        let growth = cold(&scenario).max_growth_rate.expect("eigenvalues");
+        assert_eq!(growth > 0.0, speed > 11.3, "stable up to 11.3 m/s");
+        let shape = shapes.next_back().expect("a shape");
+        assert!(!shape.is_critical && (shape.speed - speed).abs() < 1e-12);
+        assert!((shape.eigenvalue[0] - growth).abs() < 1e-9 && shape.eigenvalue[1] >= 0.0, "{:?}", shape.eigenvalue);
+    }
+    // Chosen later, it comes without a new analysis.
+    engine.submit(Request::Shape(CRITICAL));
+    finish(&mut engine);
+    engine.submit(Request::Shape(present));
+    let replies = finish(&mut engine);
+    let [Reply { revision: 2, update: Update::Shape(shape) }] = &replies[..] else { panic!("{replies:?}") };
+    assert!(shape.eigenvalue[0] > 0.0 && (shape.speed - 12.0).abs() < 1e-12);
 }
 
 /// With 200 elements and tangent stiffness eigenvalues crowd beyond double precision (docs/theory.md section 11); the

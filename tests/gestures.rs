@@ -2,15 +2,17 @@
 
 #![cfg(feature = "app")]
 
-use eframe::egui::accesskit::Role;
+use eframe::egui::accesskit::{Role, Toggled};
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Theme, TouchDeviceId, TouchId, TouchPhase, Vec2};
 use egui_kittest::Harness;
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::kittest::{AccessKitNode, NodeT as _, Queryable as _};
 use tautline::app::{Start, Tautline};
 use tautline::compute::protocol::Topic;
 use tautline::scenario::{Scenario, presets};
 
-use interface::{app, app_started, app_with, paper, settle, type_value, wait, wait_for_label};
+use interface::{
+    app, app_started, app_with, open_groups, open_plot, paper, reach, settle, type_value, wait, wait_for_label,
+};
 
 #[path = "common/interface.rs"]
 mod interface;
@@ -60,10 +62,27 @@ fn drag_by(app: &mut App, way: &str, from: Pos2, by: Vec2) {
     settle(app);
 }
 
-/// Points per metre on the canvas, where it shows the paper's robot.
-fn scale(app: &App) -> f64 {
-    let canvas = app.get_by_label("Robot canvas").rect();
-    f64::from(((canvas.width() - 88.0) / 20.0).min((canvas.height() - 88.0) / 10.0))
+/// Points per metre on the canvas, where it shows the paper's robot: its upper winches are 20 m apart.
+fn scale(app: &mut App) -> f64 {
+    let is_unlocked = app.query_by_label("Winch 1").is_some();
+    if !is_unlocked {
+        lock_or_unlock(app);
+    }
+    let scale = f64::from(centre(app, "Winch 2").x - centre(app, "Winch 1").x) / 20.0;
+    if !is_unlocked {
+        lock_or_unlock(app);
+    }
+    scale
+}
+
+fn lock_or_unlock(app: &mut App) {
+    app.get_by_label("Unlock the winches").click();
+    app.run_steps(5);
+}
+
+/// A place on the canvas where nothing is, in its lower right corner.
+fn nowhere(app: &App) -> Pos2 {
+    app.get_by_label("Robot canvas").rect().right_bottom() - Vec2::splat(10.0)
 }
 
 fn centre(app: &App, label: &str) -> Pos2 {
@@ -74,7 +93,7 @@ fn centre(app: &App, label: &str) -> Pos2 {
 fn a_dragged_platform_is_where_it_was_released_however_slow_the_frames_are() {
     for way in WAYS {
         let mut app = app();
-        let scale = scale(&app);
+        let scale = scale(&mut app);
         let from = centre(&app, "Platform");
         drag_by(&mut app, way, from, Vec2::new(120.0, -30.0));
         let [x, y] = app.state().scenario().motion.position;
@@ -90,12 +109,13 @@ fn a_dragged_platform_is_where_it_was_released_however_slow_the_frames_are() {
 fn a_dragged_arrow_has_its_tip_where_it_was_released_however_slow_the_frames_are() {
     for way in WAYS {
         let mut app = app();
+        let scale = scale(&mut app);
         let from = centre(&app, "Velocity");
         // For the paper's robot one metre of arrow is 2 m/s.
-        let expected = 5.0 + 60.0 / scale(&app) * 2.0;
+        let expected = 5.0 + 60.0 / scale * 2.0;
         drag_by(&mut app, way, from, Vec2::new(60.0, 0.0));
         let motion = app.state().scenario().motion;
-        let half = 0.5 / scale(&app) * 2.0;
+        let half = 0.5 / scale * 2.0;
         assert!((motion.speed - expected).abs() <= half, "{way}: {motion:?} in place of {expected}");
         assert!(motion.direction[1].abs() < 1e-6, "{way}: {motion:?}");
     }
@@ -105,18 +125,9 @@ fn a_dragged_arrow_has_its_tip_where_it_was_released_however_slow_the_frames_are
 fn a_dragged_winch_is_where_it_was_released_however_slow_the_frames_are() {
     for way in WAYS {
         let mut app = app();
-        let header = app.get_by_label("Layout of the robot");
-        header.scroll_to_me();
-        app.run_steps(30);
-        app.get_by_label("Layout of the robot").click();
-        app.run_steps(30);
-        app.get_by_label("Unlock the winches").click();
-        app.run_steps(5);
-        let scale = scale(&app);
-        // The control has the same name.
-        let canvas = app.get_by_label("Robot canvas").rect();
-        let all = app.get_all_by_label("Winch 1").map(|node| node.rect());
-        let from = all.into_iter().find(|rect| canvas.intersects(*rect)).expect("a handle").center();
+        lock_or_unlock(&mut app);
+        let scale = scale(&mut app);
+        let from = centre(&app, "Winch 1");
         let [x, y] = paper().cables[0].anchor;
         drag_by(&mut app, way, from, Vec2::new(30.0, 24.0));
         let [new_x, new_y] = app.state().scenario().cables[0].anchor;
@@ -131,7 +142,7 @@ fn a_dragged_background_is_where_it_was_released_however_slow_the_frames_are() {
     for way in WAYS {
         let mut app = app();
         let before = centre(&app, "Platform");
-        drag_by(&mut app, way, before - Vec2::new(0.0, 150.0), Vec2::new(70.0, 40.0));
+        drag_by(&mut app, way, before + Vec2::new(-100.0, 60.0), Vec2::new(70.0, 40.0));
         let now = centre(&app, "Platform");
         assert!((now - before - Vec2::new(70.0, 40.0)).length() < 0.1, "{way}: {before:?} {now:?}");
         assert_eq!(app.state().scenario(), &paper(), "{way}: looking changes nothing");
@@ -146,6 +157,8 @@ fn sliders_values_and_panels_keep_the_end_of_a_drag_too() {
         let slider = app.get_by_role_and_label(Role::Slider, "Speed v").rect();
         drag_by(&mut app, way, slider.center(), Vec2::new(30.0, 0.0));
         let speed = app.state().scenario().motion.speed;
+        open_groups(&mut app);
+        reach(&mut app, Role::SpinButton, "Gravity g");
         let value = app.get_by_role_and_label(Role::SpinButton, "Gravity g").rect();
         drag_by(&mut app, way, value.center(), Vec2::new(40.0, 0.0));
         let gravity = app.state().scenario().gravity;
@@ -185,9 +198,36 @@ fn swipe(app: &mut App, from: Pos2, by: Vec2) {
 fn phone() -> App {
     let mut app = app_with(paper(), PHONE, Theme::Light);
     // A first touch, on no control, tells the app that there is a touch screen.
-    swipe(&mut app, Pos2::new(350.0, 330.0), Vec2::ZERO);
+    let at = nowhere(&app);
+    swipe(&mut app, at, Vec2::ZERO);
     settle(&mut app);
     app
+}
+
+/// A phone that shows this.
+fn phone_with(tab: &str) -> App {
+    let mut app = phone();
+    show(&mut app, tab);
+    app
+}
+
+fn show(app: &mut App, tab: &str) {
+    app.get_by_role_and_label(Role::Tab, tab).click();
+    app.run_steps(5);
+}
+
+/// Opens these groups of a phone's robot, and no others.
+fn open_only(app: &mut App, wanted: &[&str]) {
+    for group in ["Cables", "Rope", "Mass and gravity", "Damping", "Model"] {
+        reach(app, Role::Button, group);
+        let heading = app.get_by_role_and_label(Role::Button, group);
+        let is_open = heading.accesskit_node().toggled() == Some(Toggled::True);
+        if is_open != wanted.contains(&group) {
+            heading.click();
+            app.run_steps(5);
+        }
+    }
+    reach(app, Role::Button, "Cables");
 }
 
 /// All numbers that can be turned, with what they are.
@@ -200,23 +240,33 @@ fn numbers(app: &App) -> Vec<(Role, String, Rect, Option<f64>)> {
     .collect()
 }
 
+/// So far a page that was swiped beyond its end comes back, in points.
+const REST: f32 = 6.0;
+
 /// Swipes up and down on every number of the page in turn; each time the page scrolls, and no number changes.
 fn swipes_scroll(app: &mut App, expected: usize) {
     let (mut done, mut scrolled) = (std::collections::BTreeSet::new(), 0);
+    let tabs = app.get_by_role_and_label(Role::Tab, "Move").rect();
+    let reachable = Rect::from_min_max(Pos2::new(0.0, tabs.max.y), Pos2::new(360.0, 730.0));
+    // Down the page by a swipe on nothing: in the margin.
+    let margin = Pos2::new(5.0, 700.0);
     for _ in 0..120 {
         let all = numbers(app);
-        let reachable = Rect::from_min_max(Pos2::new(0.0, 420.0), Pos2::new(360.0, 730.0));
         let next = all.iter().find(|(role, name, rect, _)| {
             reachable.contains_rect(*rect) && !done.contains(&format!("{role:?} {name}"))
         });
         let Some((role, name, ..)) = next.cloned() else {
-            // Down the page by a swipe on nothing.
-            swipe(app, Pos2::new(5.0, 700.0), Vec2::new(0.0, -200.0));
+            swipe(app, margin, Vec2::new(0.0, -200.0));
             continue;
         };
         for by in [-60.0, 60.0] {
             let (before, scenario) = (numbers(app), app.state().scenario().clone());
             let from = before.iter().find(|one| one.0 == role && one.1 == name).expect("there").2.center();
+            if !reachable.contains(from) {
+                // The first swipe has brought it under the tabs.
+                swipe(app, margin, Vec2::new(0.0, by));
+                break;
+            }
             swipe(app, from, Vec2::new(4.0, by));
             let after = numbers(app);
             let values = |all: &[(Role, String, Rect, Option<f64>)]| {
@@ -228,10 +278,13 @@ fn swipes_scroll(app: &mut App, expected: usize) {
                 all.iter().find(|one| one.0 == role && one.1 == name).expect("there").2.center()
             };
             let moved = place(&after) - from;
-            if by < 0.0 && moved.y == 0.0 {
+            // The end of the page may still come to rest.
+            if by < 0.0 && (0.0..=REST).contains(&moved.y) {
                 // A swipe may move nothing only at the page's end; there a swipe on no control moves nothing either.
-                swipe(app, Pos2::new(5.0, 700.0), Vec2::new(0.0, -60.0));
-                assert_eq!(place(&numbers(app)), from, "{role:?} {name}: the page does not scroll");
+                let rest = place(&after);
+                swipe(app, margin, Vec2::new(0.0, -60.0));
+                let more = place(&numbers(app)) - rest;
+                assert!(more.y.abs() <= REST, "{role:?} {name}: the page does not scroll, and then by {more:?}");
                 break;
             }
             scrolled += 1;
@@ -244,32 +297,42 @@ fn swipes_scroll(app: &mut App, expected: usize) {
 
 #[test]
 fn a_swipe_up_or_down_on_any_value_or_slider_scrolls_and_changes_nothing() {
-    let mut app = phone();
-    // Two for each of the twelve numbers of the controls.
-    swipes_scroll(&mut app, 24);
+    // Two for each of the four numbers of the motion.
+    swipes_scroll(&mut phone_with("Move"), 8);
 
-    // Those that are folded: the tensions' laws, winches, the frame.
-    let mut app = phone();
-    for name in ["Cable 3: by law", "Layout of the robot", "Winch 2"] {
-        let header = app.get_all_by_label(name).next().expect("a header");
-        header.scroll_to_me();
-        app.run_steps(40);
-        let header = app.get_all_by_label(name).next().expect("a header");
-        header.click();
-        app.run_steps(40);
+    // The eight of the folded groups.
+    let mut app = phone_with("Robot");
+    open_only(&mut app, &["Rope", "Mass and gravity", "Damping", "Model"]);
+    swipes_scroll(&mut app, 16);
+
+    // Those of a cable: its winch and its tension's law; the frame, whose two numbers have no slider.
+    let mut app = phone_with("Robot");
+    open_only(&mut app, &["Cables"]);
+    for (role, name) in [(Role::Button, "Cable 3"), (Role::Button, "Unlock the winches")] {
+        reach(&mut app, role, name);
+        app.get_by_role_and_label(role, name).click();
+        app.run_steps(10);
     }
-    // Those of the law that are below the place where it was opened, four of the winch, two of the frame.
-    swipes_scroll(&mut app, 10);
+    reach(&mut app, Role::Button, "Cables");
+    swipes_scroll(&mut app, 18);
 
-    let mut app = phone();
-    app.get_by_label("Plots").click();
-    app.run_steps(10);
-    app.get_by_label_contains("Pause").click();
-    app.get_by_label("Campbell").click();
+    let mut app = phone_with("Plots");
+    app.get_by_role_and_label(Role::ComboBox, "Plot group").click();
+    app.run_steps(5);
+    app.get_by_role_and_label(Role::Button, "Model").click();
+    app.run_steps(5);
+    show(&mut app, "Speed diagram");
     wait(&mut app, "a study", |app| app.study(Topic::Campbell).2);
     app.run_steps(10);
-    // Amplitude, phase; tempo and the highest frequency, which can also be typed.
-    swipes_scroll(&mut app, 6);
+    // The highest frequency, which can also be typed, on a page that has little to scroll.
+    for by in [-60.0, 60.0, -60.0] {
+        let before = numbers(&app);
+        for (role, name, rect, _) in before.iter().filter(|number| number.1 == "Highest frequency") {
+            swipe(&mut app, rect.center(), Vec2::new(4.0, by));
+            let now: Vec<Option<f64>> = numbers(&app).into_iter().map(|number| number.3).collect();
+            assert_eq!(now, before.iter().map(|number| number.3).collect::<Vec<_>>(), "{role:?} {name}, by {by}");
+        }
+    }
 }
 
 #[test]
@@ -308,8 +371,9 @@ fn a_mouse_turns_up_and_down_as_ever() {
     assert!(app.state().scenario().motion.direction[1] > 0.1, "{:?}", app.state().scenario().motion);
 }
 
-fn choose(app: &mut App, menu: &str, entry: &str) {
-    app.get_by_role_and_label(Role::Button, menu).click();
+/// Chooses an entry of the bar's menu.
+fn choose(app: &mut App, entry: &str) {
+    app.get_by_role_and_label(Role::Button, "More").click();
     app.run_steps(5);
     // A menu's entry tells its keys as well.
     app.get_all_by_label_contains(entry).last().expect("an entry").click();
@@ -329,11 +393,11 @@ fn shows(app: &App, label: &str) -> bool {
 fn esc_closes_the_innermost_thing_first_and_one_at_a_time() {
     // Over the tour two windows, and in the one in front an open list.
     let mut app = app_started(Start { scenario: Some(paper()), tour: true, ..Start::default() });
-    choose(&mut app, "Help", "Theory");
-    choose(&mut app, "View", "Settings");
+    choose(&mut app, "Theory");
+    choose(&mut app, "Settings");
     app.get_by_role_and_label(Role::ComboBox, "Theme").click();
     app.run_steps(5);
-    let open = |app: &App| ["Dark", "Young's modulus in", "Sources", "1 of 6"].map(|label| shows(app, label));
+    let open = |app: &App| ["Dark", "Young's modulus in", "Sources", "1 of 4"].map(|label| shows(app, label));
     assert_eq!(open(&app), [true, true, true, true]);
     escape(&mut app);
     assert_eq!(open(&app), [false, true, true, true], "the list");
@@ -351,8 +415,8 @@ fn esc_closes_the_innermost_thing_first_and_one_at_a_time() {
 #[test]
 fn esc_closes_a_menu_before_the_window_behind_it() {
     let mut app = app();
-    choose(&mut app, "View", "Settings");
-    app.get_by_role_and_label(Role::Button, "File").click();
+    choose(&mut app, "Settings");
+    app.get_by_role_and_label(Role::ComboBox, "Robot").click();
     app.run_steps(5);
     assert!(shows(&app, "Save scenario") && shows(&app, "Frequencies in"));
     escape(&mut app);
@@ -381,7 +445,7 @@ fn esc_closes_lists_in_panels_and_the_map() {
 #[test]
 fn esc_takes_back_what_is_typed_before_it_closes_a_window() {
     let mut app = app();
-    choose(&mut app, "View", "Settings");
+    choose(&mut app, "Settings");
     app.get_by_role_and_label(Role::SpinButton, "Speed v").click();
     app.run_steps(3);
     app.event(Event::Text("7".into()));
@@ -393,35 +457,47 @@ fn esc_takes_back_what_is_typed_before_it_closes_a_window() {
     assert!(!shows(&app, "Frequencies in"));
 }
 
-/// Meanings: what to click, and a part of what is said.
-const MEANINGS: [(&str, &str); 5] = [
-    ("Speed v", "along its direction of motion"),
-    ("Young's modulus E", "makes the axial stiffness"),
-    ("Strain", "The strain measure"),
-    ("(frozen-time criterion: what is it?)", "frozen at this moment"),
-    ("11.3 m/s", "frozen at this moment"),
+/// Meanings: what to click, a part of what is said, and where a phone has it.
+const MEANINGS: [(&str, &str, Option<&str>); 5] = [
+    ("Speed v", "along its direction of motion", Some("Move")),
+    ("Young's modulus E", "makes the axial stiffness", Some("Robot")),
+    // These two are words with a card, of which a pointer that rests there is told the first sentence.
+    ("Strain", "Two ways to measure how far a cable is stretched", Some("Robot")),
+    ("frozen time", "this criterion looks at one instant", Some("Explain")),
+    ("11.3 m/s", "frozen at this moment", None),
 ];
 
+/// Where a label is, or a word with a card.
 fn label(app: &App, label: &str) -> Pos2 {
-    app.get_by_role_and_label(Role::Label, label).rect().center()
+    app.get_by(|node| is_called(node, label)).rect().center()
+}
+
+/// Whether it is this label, or this word with a card.
+fn is_called(node: &AccessKitNode<'_>, label: &str) -> bool {
+    matches!(node.role(), Role::Label | Role::Link)
+        && node.label().or_else(|| node.value()).is_some_and(|text| text.eq_ignore_ascii_case(label))
 }
 
 #[test]
 fn meanings_open_by_a_click_and_close_by_the_next_one_or_esc() {
     let mut app = app();
-    for (name, meaning) in MEANINGS {
+    open_groups(&mut app);
+    let nowhere = nowhere(&app);
+    for (name, meaning, _) in MEANINGS {
+        app.get_by(|node| is_called(node, name)).scroll_to_me();
+        app.run_steps(30);
         assert!(!shows(&app, meaning), "{name}: not yet");
         for close_by_esc in [true, false] {
             let at = label(&app, name);
             drag_by(&mut app, "one by one", at, Vec2::ZERO);
             // Not by resting there.
-            in_one_frame(&mut app, [Event::PointerMoved(Pos2::new(600.0, 700.0))]);
+            in_one_frame(&mut app, [Event::PointerMoved(nowhere)]);
             app.run_steps(90);
             assert!(shows(&app, meaning), "{name}: a click opens it");
             if close_by_esc {
                 escape(&mut app);
             } else {
-                drag_by(&mut app, "one by one", Pos2::new(600.0, 700.0), Vec2::ZERO);
+                drag_by(&mut app, "one by one", nowhere, Vec2::ZERO);
                 app.run_steps(20);
             }
             assert!(!shows(&app, meaning), "{name}: closed by Esc {close_by_esc}");
@@ -430,20 +506,27 @@ fn meanings_open_by_a_click_and_close_by_the_next_one_or_esc() {
         in_one_frame(&mut app, [Event::PointerMoved(at)]);
         app.run_steps(90);
         assert!(shows(&app, meaning), "{name}: by resting on it, as ever");
-        in_one_frame(&mut app, [Event::PointerMoved(Pos2::new(600.0, 700.0))]);
+        in_one_frame(&mut app, [Event::PointerMoved(nowhere)]);
         app.run_steps(30);
     }
+    assert_eq!(app.state().scenario(), &paper());
 }
 
 #[test]
 fn meanings_open_by_a_tap() {
-    let mut app = phone();
-    // From the top of the page down.
-    for (name, meaning) in MEANINGS.into_iter().rev() {
-        let at = label(&app, name);
-        if at.y > 720.0 {
-            swipe(&mut app, Pos2::new(5.0, 700.0), Vec2::new(0.0, -250.0));
+    let mut app = phone_with("Robot");
+    open_only(&mut app, &["Rope", "Model"]);
+    for (name, meaning, tab) in MEANINGS {
+        if let Some(tab) = tab {
+            show(&mut app, tab);
         }
+        for _ in 0..4 {
+            if label(&app, name).y > 700.0 {
+                swipe(&mut app, Pos2::new(5.0, 700.0), Vec2::new(0.0, -150.0));
+            }
+        }
+        // Once the page has come to rest.
+        app.run_steps(40);
         let at = label(&app, name);
         swipe(&mut app, at, Vec2::ZERO);
         app.run_steps(40);
@@ -465,32 +548,29 @@ fn meanings_open_by_a_tap() {
 #[test]
 fn headings_and_what_is_grey_have_meanings() {
     let mut app = app();
-    app.get_by_role_and_label(Role::Button, "Modes").click();
-    wait_for_label(&mut app, "Modes at today's speed");
+    open_plot(&mut app, "Modes");
+    wait_for_label(&mut app, "damp.");
     app.run_steps(3);
-    let at = label(&app, "ζ");
+    let at = label(&app, "damp.");
     drag_by(&mut app, "one by one", at, Vec2::ZERO);
     app.run_steps(10);
     assert!(shows(&app, "The damping ratio"));
     escape(&mut app);
 
-    for name in ["Layout of the robot", "Winch 1"] {
-        app.get_by_label(name).scroll_to_me();
-        app.run_steps(30);
-        app.get_by_label(name).click();
-        app.run_steps(30);
-    }
-    app.get_by_label("Remove cable 1").scroll_to_me();
-    app.run_steps(30);
+    app.get_by_role_and_label(Role::Button, "Cable 1").click();
+    app.run_steps(10);
+    reach(&mut app, Role::Button, "Remove cable 1");
     let at = centre(&app, "Remove cable 1");
     drag_by(&mut app, "one by one", at, Vec2::ZERO);
-    in_one_frame(&mut app, [Event::PointerMoved(Pos2::new(600.0, 700.0))]);
+    let nowhere = nowhere(&app);
+    in_one_frame(&mut app, [Event::PointerMoved(nowhere)]);
     app.run_steps(60);
     assert!(shows(&app, "Two cables must be at equilibrium"));
     assert_eq!(app.state().scenario(), &paper());
 }
 
-/// Every meaning in the sources goes through the one place that opens it by taps as well.
+/// Every meaning in the sources goes through the one place that opens it by taps as well, or is the first sentence of a
+/// word's card, which a tap opens.
 #[test]
 fn no_meaning_is_for_the_mouse_alone() {
     let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/app");
@@ -503,7 +583,8 @@ fn no_meaning_is_for_the_mouse_alone() {
             } else if path.extension().is_some_and(|extension| extension == "rs") {
                 let text = std::fs::read_to_string(&path).expect("a source");
                 meanings += text.matches(".explained(").count();
-                if !path.ends_with("meaning.rs") && (text.contains("on_hover_text") || text.contains("hover_ui")) {
+                let opens_by_taps = path.ends_with("app/meaning.rs") || path.ends_with("app/words/links.rs");
+                if !opens_by_taps && (text.contains("on_hover_text") || text.contains("hover_ui")) {
                     found.push(path);
                 }
             }
@@ -539,9 +620,20 @@ fn the_arrows_tip_is_on_the_canvas_and_can_be_grabbed_at_every_speed() {
             let (platform, tip) = (centre(&app, "Platform"), centre(&app, "Velocity"));
             assert!(canvas.shrink(8.0).contains(tip), "{what}: {tip:?} of {canvas:?}");
 
-            // Toward the platform: slower, in proportion, without a jump where it is grabbed. 26 points are its gap.
-            let (length, back) = ((tip - platform).length() - 26.0, 10.0);
-            assert!(length > 2.0 * back, "{what}: {length} points long");
+            // Toward the platform: slower, in proportion, without a jump where it is grabbed. 26 points are its gap, or
+            // half of the room up to 12 points from the border.
+            let (ahead, within) = ((tip - platform).normalized(), canvas.shrink(12.0));
+            let room = |at: f32, way: f32, low: f32, high: f32| {
+                if way.abs() < 1e-3 { f32::INFINITY } else { ((if way > 0.0 { high } else { low }) - at) / way }
+            };
+            let room = room(platform.x, ahead.x, within.min.x, within.max.x).min(room(
+                platform.y,
+                ahead.y,
+                within.min.y,
+                within.max.y,
+            ));
+            let (length, back) = ((tip - platform).length() - (0.5 * room).min(26.0), 10.0);
+            assert!(length > 1.1 * back, "{what}: {length} points long");
             drag_by(&mut app, "one by one", tip, (platform - tip).normalized() * back);
             let slower = app.state().scenario().motion.speed;
             let expected = speed * f64::from(1.0 - back / length);
@@ -561,13 +653,15 @@ fn the_arrows_scale_changes_in_steps_and_not_while_its_tip_is_held() {
         app.run_steps(90);
         let told = app.get_by_label_contains("m of the arrow is");
         let text = interface::text_of(&told);
-        in_one_frame(app, [Event::PointerMoved(Pos2::new(700.0, 780.0))]);
+        let nowhere = nowhere(app);
+        in_one_frame(app, [Event::PointerMoved(nowhere)]);
         app.run_steps(20);
         text.split("arrow is ").nth(1).and_then(|rest| rest.split(' ').next()).expect("a step").to_owned()
     };
     assert_eq!(scale_told(&mut app), "2");
     // Up to the border, as slowly as can be: every point of the way is worth the same.
-    let (from, scale) = (centre(&app, "Velocity"), scale(&app));
+    let scale = scale(&mut app);
+    let from = centre(&app, "Velocity");
     let right = app.get_by_label("Robot canvas").rect().max.x;
     in_one_frame(&mut app, [Event::PointerMoved(from)]);
     in_one_frame(&mut app, [button(from, true)]);

@@ -15,21 +15,28 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use tautline::app::Tautline;
 use tautline::study::validation::CHECKS;
 
-use interface::{PATIENCE, SIZE, app_with, paper, settle};
+use interface::{PATIENCE, SIZE, app_with, paper, reach, settle};
 
 type App = Harness<'static, Tautline>;
 
 const PHONE: Vec2 = Vec2::new(360.0, 740.0);
 
-/// Opens a window from the Help menu.
+/// Opens a window from the bar's menu.
 fn open(size: Vec2, theme: Theme, window: &str) -> App {
     let mut app = app_with(paper(), size, theme);
-    app.get_by_label("Help").click();
-    app.run_steps(3);
-    app.get_by_label_contains(window).click();
+    choose(&mut app, window);
     settle(&mut app);
     app.run_steps(5);
     app
+}
+
+/// Clicks on an entry of the bar's menu.
+fn choose(app: &mut App, entry: &str) {
+    app.get_by_role_and_label(Role::Button, "More").click();
+    app.run_steps(3);
+    reach(app, Role::Button, entry);
+    app.get_by_role_and_label(Role::Button, entry).click();
+    app.run_steps(3);
 }
 
 /// Name and place of all that is in the window.
@@ -137,9 +144,6 @@ fn the_validation_runs_again_when_asked_and_when_opened_again() {
     wait_for_all(&mut app);
     app.key_press(Key::Escape);
     app.run_steps(5);
-    app.get_by_label("Help").click();
-    app.run_steps(3);
-    app.get_by_label_contains("Validation").click();
-    app.run_steps(3);
+    choose(&mut app, "Validation");
     app.get_by_label_contains("Computing: ");
 }

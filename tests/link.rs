@@ -153,6 +153,19 @@ fn what_programs_add_to_links_is_overlooked() {
 }
 
 #[test]
+fn what_a_link_says_of_the_view_is_no_part_of_the_robot() {
+    let link = link::encode(&paper());
+    for view in
+        ["&plot=line&map=speed&panels=0&tour=0&theme=dark&present=1", "&", "&amp;plot=line", "%26plot=line", "&x=%ff&&"]
+    {
+        assert_eq!(link::decode(&format!("{link}{view}")), Ok(paper()), "{view:?}");
+    }
+    // A damaged robot is not made whole by it.
+    let damaged = format!("{}&plot=line", &link[..link.len() - 4]);
+    assert_eq!(link::decode(&damaged), Err(LinkError::Damaged));
+}
+
+#[test]
 fn links_of_later_formats_are_told() {
     assert!(LinkError::Newer.to_string().contains("newer version of Tautline"));
     let link = link::encode(&paper());

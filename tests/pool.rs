@@ -55,6 +55,7 @@ fn studies() -> Vec<Study> {
         Study::Speeds { position, direction, to: 12.0, count: 13 },
         Study::Elements { position, direction, counts: vec![8, 2, 4], limit: LIMIT },
         Study::Modes { spectra: spectra.collect() },
+        Study::Border { grid },
     ];
     for mapped in [Mapped::Critical { limit: LIMIT }, Mapped::Growth { speed: motion.speed() }] {
         for directions in [Directions::One(direction), Directions::Worst(Directions::WORST_OF)] {
@@ -136,7 +137,7 @@ fn every_study_gives_at_every_place_what_it_gives_alone() {
     let mut watched = Watched::new();
     assert!((1..=8).contains(&watched.pool.size()));
     for (revision, study) in (1..).zip(studies()) {
-        let topic = Topic::of(&study);
+        let topic = study.topic();
         watched.pool.want(job(revision, study.clone()));
         // What is small may have ended already.
         assert!(watched.pool.progress(topic).is_none_or(|(_, all)| all == study.len()));
@@ -152,10 +153,10 @@ fn every_study_gives_at_every_place_what_it_gives_alone() {
 fn all_topics_are_answered_side_by_side_and_a_map_starves_none() {
     let mut watched = Watched::new();
     watched.pool.want(job(1, map(33, 17)));
-    for study in studies().into_iter().take(5) {
+    for study in studies().into_iter().take(6) {
         watched.pool.want(job(1, study));
     }
-    watched.until(|seen| seen.finished.len() == 6);
+    watched.until(|seen| seen.finished.len() == 7);
     assert_eq!(watched.seen.finished.last(), Some(&(Topic::Map, 1)));
     let of_the_map: Vec<usize> =
         watched.seen.places.iter().filter(|(topic, _)| *topic == Topic::Map).map(|(_, place)| *place).collect();
@@ -269,6 +270,8 @@ fn numbers_that_are_not_allowed_are_refused() {
         map(grid, Directions::Worst(usize::MAX), mapped),
         map(grid, ahead, Mapped::Critical { limit: f64::INFINITY }),
         map(grid, ahead, Mapped::Growth { speed: f64::NAN }),
+        Study::Border { grid: Grid { high: nowhere, ..grid } },
+        Study::Border { grid: Grid { nx: usize::MAX, ..grid } },
         Study::Polar { position: nowhere, count, limit },
         Study::Speeds { position, direction, to: f64::NAN, count },
         Study::Speeds { position, direction: nowhere, to: 9.0, count },

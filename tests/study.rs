@@ -12,13 +12,13 @@ use nalgebra::Complex;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree as _;
 use proptest::test_runner::TestRunner;
-use tautline::mechanics::{CableShape, LengthRates, Material};
+use tautline::mechanics::{self, CableShape, LengthRates, Material};
 use tautline::robot::{Damping, Linearisation, RobotSpec, Vec2, paper, paper_spec};
 use tautline::stability::{Critical, Instability, Outcome};
 use tautline::study::campbell::{Track, track};
 use tautline::study::convergence::{Convergence, Extrapolation, NoLimit, known_order, richardson};
 use tautline::study::{
-    Answer, Directions, Grid, Line, Mapped, NoEigenvalues, Study, Verdict, compass, evenly, verdict,
+    Answer, Directions, Grid, Line, Mapped, NoEigenvalues, Study, Topic, Verdict, compass, evenly, verdict,
 };
 use tautline::{LocalProblem, Motion, Robot};
 
@@ -136,6 +136,44 @@ fn what_is_no_pose_is_infeasible() {
     }
     let study = Study::Speeds { position: origin, direction: Vec2::x(), to: f64::INFINITY, count: 2 };
     assert_eq!(study.answer(&robot, 1), Answer::Spectrum(Err(NoEigenvalues::Infeasible)));
+}
+
+/// Within a thousandth of an edge on either side of the border the robot is what it is at that end of the edge.
+#[test]
+fn the_border_parts_what_is_feasible_from_what_is_not() {
+    let robot = paper().expect("the paper's robot");
+    let (columns, rows) = (21, 11);
+    let grid = Grid::of(&robot, columns, rows);
+    let study = Study::Border { grid };
+    assert_eq!((study.len(), study.topic()), (rows, Topic::Border));
+    let feasible = |at: Vec2| mechanics::solve(&robot, at).is_ok();
+    let mut crossings = 0;
+    for row in 0..rows {
+        let Answer::Border(strip) = study.answer(&robot, row) else { panic!("no border") };
+        assert_eq!((strip.feasible.len(), strip.right.len()), (columns, columns - 1));
+        assert_eq!(strip.up.len(), if row + 1 < rows { columns } else { 0 });
+        for column in 0..columns {
+            let at = |row: usize, column: usize| grid.position(row * columns + column);
+            let from = at(row, column);
+            assert_eq!(strip.feasible[column], Some(feasible(from)), "at {from:?}");
+            let edges = [(strip.right.get(column), (row, column + 1)), (strip.up.get(column), (row + 1, column))];
+            for (crossing, (row, column)) in edges {
+                let Some(crossing) = crossing else { continue };
+                let to = at(row, column);
+                let on_the_way = |part: f64| feasible(from + (to - from) * part.clamp(0.0, 1.0));
+                match crossing {
+                    None => assert_eq!(feasible(from), feasible(to), "between {from:?} and {to:?}"),
+                    Some(part) => {
+                        assert_eq!(on_the_way(part - 1e-3), feasible(from), "{part} between {from:?} and {to:?}");
+                        assert_eq!(on_the_way(part + 1e-3), feasible(to), "{part} between {from:?} and {to:?}");
+                        crossings += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(crossings > 30, "{crossings}");
+    assert!(matches!(study.unknown(3), Answer::Border(strip) if strip.feasible == vec![None; columns]));
 }
 
 /// Every index comes once. A picture of a quarter of the resolution comes first, then what half the resolution adds, then

@@ -9,7 +9,20 @@
 
     // In a frame of another page the user may be typing elsewhere. So the page is inert until the app has started;
     // otherwise the app would take the focus then. Afterwards a click gives it the focus, as usual.
-    document.body.inert = window.self !== window.top;
+    const framed = window.parent !== window;
+    document.body.inert = framed;
+
+    // There the wheel is for the page around it: without Ctrl, which zooms, the app does not hear of it.
+    if (framed) {
+        const forPage = (event) => { if (!event.ctrlKey && !event.metaKey) event.stopImmediatePropagation(); };
+        addEventListener("wheel", forPage, { capture: true, passive: true });
+    }
+
+    // In the app F6 goes from region to region; the browser would go to its own bars.
+    addEventListener("keydown", (event) => {
+        const inApp = event.target === canvas || event.target === canvas.nextElementSibling;
+        if (event.key === "F6" && inApp && !event.ctrlKey && !event.altKey) event.preventDefault();
+    }, { capture: true });
 
     const copy = document.getElementById("tautline-copy");
     document.getElementById("tautline-copy-close").addEventListener("click", () => copy.close());
@@ -85,10 +98,18 @@
     addEventListener("error", (event) => { if (event.error) thrown(event.error); });
     addEventListener("unhandledrejection", (event) => thrown(event.reason));
 
+    // The ends of the app are no stops of Tab, but it goes on from them: from where Tab never stops it would begin anew.
+    for (const end of document.querySelectorAll(".end")) {
+        end.addEventListener("focus", () => { end.tabIndex = 0; });
+        end.addEventListener("blur", () => { end.tabIndex = -1; });
+    }
+
     // The app gives the canvas its size right before it draws for the first time.
     const observer = new MutationObserver(() => {
         started = true;
         observer.disconnect();
+        // The drawing library's own field for what is typed comes right behind the canvas. Tab is not to find it.
+        if (canvas.nextElementSibling instanceof HTMLInputElement) canvas.nextElementSibling.tabIndex = -1;
         document.body.inert = false;
         loading.hidden = true;
         failure.hidden = true; // whatever it was, it did not keep the app from starting

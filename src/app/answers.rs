@@ -16,6 +16,8 @@ pub type Sensitivities = Result<Vec<Sensitivity>, String>;
 pub struct Answers {
     /// The document's revision: answers to it are current.
     revision: Revision,
+    /// The first revision of the robot that is open.
+    opened: Revision,
     pose: Option<(Revision, AnalysedPose)>,
     failed: Option<(Revision, FailedPose)>,
     critical: Option<(Revision, SearchEnd)>,
@@ -49,6 +51,11 @@ pub enum CriticalState<'a> {
 }
 
 impl Answers {
+    /// Notes that from this revision on it is another robot's document: the poses before are none of its own.
+    pub fn begin(&mut self, revision: Revision) {
+        self.opened = revision;
+    }
+
     /// Notes that the document has changed.
     pub fn expect(&mut self, revision: Revision) {
         self.revision = revision;
@@ -122,6 +129,19 @@ impl Answers {
         self.failed.is_none().then_some(self.pose.as_ref()).flatten().map(|(_, pose)| pose)
     }
 
+    /// The newest pose that could be analysed, also after a newer one of the same robot failed, and whether it is the
+    /// document's as it is.
+    pub fn last_pose(&self) -> Option<(&AnalysedPose, bool)> {
+        let own = self.pose.as_ref().filter(|(revision, _)| self.failed.is_none() || *revision >= self.opened);
+        own.map(|(revision, pose)| (pose, *revision == self.revision))
+    }
+
+    /// Where the platform was in the newest pose that could be analysed, in m.
+    pub fn last_feasible(&self) -> Option<[f64; 2]> {
+        // Every cable begins at the platform.
+        self.last_pose()?.0.report.cables.first()?.nodes.first().copied()
+    }
+
     /// Whether the document as it is has no answer.
     pub fn pose_failed(&self) -> bool {
         self.failed.as_ref().is_some_and(|(revision, _)| *revision == self.revision)
@@ -172,13 +192,15 @@ impl Answers {
         }
     }
 
-    /// The last critical speed, current or not.
+    /// The last critical speed, current or not, also after a pose without an answer.
     pub fn last_critical(&self) -> Option<&SearchEnd> {
-        match self.critical() {
-            CriticalState::Current(answer) => Some(answer),
-            CriticalState::Recomputing { last, .. } => last,
-            CriticalState::Failed(_) | CriticalState::Broken(_) => None,
-        }
+        let works = self.broken.is_none();
+        self.critical.as_ref().map(|(_, answer)| answer).filter(|_| works)
+    }
+
+    /// The state of the document that the last critical speed belongs to.
+    pub fn critical_revision(&self) -> Option<Revision> {
+        self.critical.as_ref().map(|(revision, _)| *revision)
     }
 
     /// Whether everything, to the sensitivities, belongs to the document as it is.
@@ -193,5 +215,52 @@ impl Answers {
     /// The last complete analysis, its revision, and whether it belongs to the document as it is.
     pub fn last_complete(&self) -> Option<(&Report, Revision, bool)> {
         self.complete.as_ref().map(|(revision, report)| (report, *revision, *revision == self.revision))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compute::Engine;
+    use crate::compute::protocol::{Job, ModeChoice, Request, Which};
+    use crate::scenario::presets;
+
+    /// What is known of the paper's robot after it has been at these places on the line y = 0, one after the other.
+    fn after(places: &[f64]) -> Answers {
+        let (mut engine, mut answers) = (Engine::default(), Answers::default());
+        for (&x, revision) in places.iter().zip(1..) {
+            let mut scenario = presets::PRESETS[0].scenario();
+            scenario.motion.position = [x, 0.0];
+            let mode = ModeChoice { which: Which::Present, along_x: false };
+            answers.expect(revision);
+            engine.submit(Request::Analyze(Job { revision, scenario: scenario.to_json(), max_speed: 40.0, mode }));
+            while let Some(replies) = engine.work() {
+                for reply in replies {
+                    answers.take(reply);
+                }
+            }
+        }
+        answers
+    }
+
+    #[test]
+    fn the_last_pose_that_could_rest_stays_known_after_one_that_cannot() {
+        let answers = after(&[6.0]);
+        assert_eq!(answers.last_feasible(), Some([6.0, 0.0]));
+        assert!(answers.last_pose().is_some_and(|(_, current)| current) && answers.pose().is_some());
+        let speed = |answers: &Answers| answers.last_critical().and_then(|end| end.critical.as_ref()).map(|c| c.speed);
+        let before = speed(&answers);
+        // No equilibrium there.
+        let answers = after(&[6.0, 8.0]);
+        assert!(answers.pose_failed() && answers.pose().is_none() && answers.shape().is_none());
+        assert_eq!(answers.last_feasible(), Some([6.0, 0.0]));
+        assert!(answers.last_pose().is_some_and(|(_, current)| !current));
+        assert!(before.is_some() && speed(&answers) == before);
+        assert!(matches!(answers.critical(), CriticalState::Failed(_)));
+        // And back.
+        let answers = after(&[6.0, 8.0, 5.0]);
+        assert_eq!(answers.last_feasible(), Some([5.0, 0.0]));
+        assert!(!answers.pose_failed() && answers.shape().is_some());
+        assert_eq!(after(&[8.0]).last_feasible(), None);
     }
 }

@@ -6,12 +6,12 @@ use super::export::{self, Content};
 use super::files::{self, Clip};
 use super::notices::About;
 use super::pinned::Pinned;
-use super::state::{Document, Page, Plot};
+use super::state::{Document, Plot, Sheet};
 use super::studies::Owner;
-use super::{Command, Tautline, fields, number};
+use super::{Command, Tautline, canvas, fields, number, view_link};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
-use crate::scenario::{Scenario, link};
+use crate::scenario::{Parameter, Scenario, link};
 
 impl Tautline {
     pub(super) fn apply(&mut self, context: &Context, command: Command) {
@@ -22,19 +22,32 @@ impl Tautline {
             }
             Command::Load(scenario) => self.open(*scenario),
             Command::Read(text) => match files::scenario(&text) {
-                Ok(scenario) => self.open(scenario),
+                Ok(scenario) => {
+                    self.open(scenario);
+                    if let Some(view) = view_link::part(&text) {
+                        view_link::apply(view, &mut self.state, &mut self.session);
+                    }
+                }
                 Err(reason) => self.complain(reason),
             },
-            Command::Share => {
-                let link = format!("{}{}{}", address(), link::MARK, link::encode(&self.present.document.scenario));
-                let use_of_it = if address().is_empty() {
-                    ", to be pasted here or put behind the address of a page with Tautline"
-                } else {
-                    ""
-                };
-                let more = format!("{use_of_it}: {link}");
-                self.files.copy(context, Clip { what: "The link", text: link, more });
+            Command::Embed => {
+                let text = view_link::embed(&self.link());
+                self.files.copy(context, Clip { what: "The embed code", text, more: ".".into() });
             }
+            Command::Step(steps) => canvas::step(&mut self.state.playback, &self.present.answers, steps),
+            Command::BackToFeasible => {
+                if let Some(position) = self.present.answers.last_feasible() {
+                    let mut document = self.present.document.clone();
+                    document.scenario.motion.position = position;
+                    self.edit(document);
+                }
+            }
+            Command::OpenWhole => {
+                let robot = link::encode(&self.present.document.scenario);
+                context.open_url(eframe::egui::OpenUrl::new_tab(format!("{}{}{robot}", address(), link::MARK)));
+            }
+            Command::ExplainWord(word) => self.session.word = Some(word),
+            Command::Share => self.share(context),
             Command::Undo => {
                 if let Some(before) = self.history.undo(&self.present.document) {
                     self.edit(before);
@@ -46,20 +59,7 @@ impl Tautline {
                 }
             }
             Command::Reset => self.open(self.present.document.original.clone()),
-            Command::Pin(on) => {
-                self.unpin();
-                let wake = self.context.clone();
-                let present = &self.present;
-                let design =
-                    || Pinned::new(present.document.scenario.clone(), &present.answers, move || wake.request_repaint());
-                match on.then(design).transpose() {
-                    Ok(pinned) => {
-                        self.present.pinned = pinned;
-                        self.notices.succeed(About::Action);
-                    }
-                    Err(reason) => self.complain(reason),
-                }
-            }
+            Command::Pin(on) => self.pin(on),
             Command::Open => self.files.open(context),
             Command::Save(content) => self.save_content(context, content),
             Command::CopyModes => match export::plot(Plot::Modes, self.facts()) {
@@ -73,10 +73,7 @@ impl Tautline {
                 self.submit(&Request::Shape(choice));
                 self.notices.succeed(About::Action);
             }
-            Command::Reveal(parameter) => {
-                self.session.revealed = Some(parameter);
-                self.state.page = Page::Controls;
-            }
+            Command::Reveal(parameter) => self.reveal(parameter),
             Command::Check(index) => self.submit(&Request::Check(index)),
             Command::StopStudy(topic) => {
                 let order = self.present.studies.stop(topic);
@@ -99,6 +96,55 @@ impl Tautline {
         }
     }
 
+    /// Puts a link on the clipboard.
+    fn share(&self, context: &Context) {
+        let link = self.link();
+        let use_of_it = if address().is_empty() {
+            ", to be pasted here or put behind the address of a page with Tautline"
+        } else {
+            ""
+        };
+        let more = format!("{use_of_it}: {link}");
+        self.files.copy(context, Clip { what: "The link", text: link, more });
+    }
+
+    /// Keeps the present design to compare with, or lets the one kept go.
+    fn pin(&mut self, on: bool) {
+        self.unpin();
+        let wake = self.context.clone();
+        let present = &self.present;
+        let design =
+            || Pinned::new(present.document.scenario.clone(), &present.answers, move || wake.request_repaint());
+        match on.then(design).transpose() {
+            Ok(pinned) => {
+                self.present.pinned = pinned;
+                self.notices.succeed(About::Action);
+            }
+            Err(reason) => self.complain(reason),
+        }
+    }
+
+    /// Brings the control of a number into view.
+    fn reveal(&mut self, parameter: Parameter) {
+        self.session.revealed = Some(parameter);
+        self.state.sheet = match parameter {
+            Parameter::Speed | Parameter::Direction | Parameter::DirectionComponent(_) | Parameter::Position(_) => {
+                Sheet::Move
+            }
+            _ => Sheet::Robot,
+        };
+        self.state.panels.left = true;
+        self.state.panels.left_where_narrow = true;
+        self.session.large = None;
+    }
+
+    /// A link to the robot as it is looked at.
+    fn link(&self) -> String {
+        let robot = link::encode(&self.present.document.scenario);
+        let view = view_link::encode(&self.state, &self.session);
+        format!("{}{}{robot}{view}", address(), link::MARK)
+    }
+
     /// Lets the pinned design go, with whatever is being computed for it.
     pub(super) fn unpin(&mut self) {
         let orders = self.present.pinned.take().map(Pinned::release);
@@ -112,6 +158,7 @@ impl Tautline {
     /// Starts from a scenario, as a step of its own.
     fn open(&mut self, scenario: Scenario) {
         self.history.step(&self.present.document);
+        self.present.answers.begin(self.engine.revision + 1);
         self.edit(Document::opened(scenario));
         self.history.step(&self.present.document);
     }
@@ -140,13 +187,13 @@ impl Tautline {
             Content::Analysis => ("-analysis.json", export::analysis(facts)),
             Content::Plot(plot) => (export::suffix(plot), export::plot(plot, facts).map(|table| table.csv())),
             Content::Map => ("-map.csv", export::map(facts).map(|table| table.csv())),
-            Content::PlotPicture if self.screen.plots_open => {
-                return self.files.save_picture(context, &(name + "-plot.png"), self.screen.regions.plot);
+            Content::PlotPicture(place) if place.is_positive() => {
+                return self.files.save_picture(context, &(name + "-plot.png"), place);
             }
             Content::CanvasPicture => {
                 return self.files.save_picture(context, &(name + "-canvas.png"), self.screen.regions.canvas);
             }
-            Content::PlotPicture => ("", None),
+            Content::PlotPicture(_) => ("", None),
         };
         match text {
             Some(text) => self.files.save(context, &(name + suffix), text.into_bytes()),

@@ -92,7 +92,8 @@ impl Certainty {
         self.speed().map(|speed| speed / critical.speed).filter(|share| share.is_finite())
     }
 
-    /// In a few words beside the figure; nothing while nothing is known.
+    /// In a few words, for screen readers; nothing while nothing is known.
+    #[cfg(any(test, target_arch = "wasm32"))]
     pub fn note(self, critical: &Critical) -> Option<String> {
         match self {
             Self::Unknown => None,

@@ -1,6 +1,7 @@
 //! What panels ask for, carried out between two frames.
 
 use crate::app::export::Content;
+use crate::app::words::Word;
 use crate::compute::protocol::{ModeChoice, Topic};
 use crate::scenario::{Parameter, Scenario};
 
@@ -19,8 +20,10 @@ pub enum Command {
     Redo,
     /// All values back to what they were when the scenario was opened.
     Reset,
-    /// Put a link to the scenario on the clipboard.
+    /// Put a link to the scenario and to how it is looked at on the clipboard.
     Share,
+    /// Put the lines on the clipboard that show the page as a frame in another one.
+    Embed,
     /// Keep the present design to compare with, or let the one kept go.
     Pin(bool),
     /// Choose a scenario file and start from it.
@@ -33,6 +36,14 @@ pub enum Command {
     ChooseMode(ModeChoice),
     /// Bring the control of this number into view.
     Reveal(Parameter),
+    /// Stop what moves on the canvas, and go on by this number of steps.
+    Step(f64),
+    /// Move the platform to the last pose that had an equilibrium.
+    BackToFeasible,
+    /// Open what a frame shows in a page of its own.
+    OpenWhole,
+    /// Open the card of a word.
+    ExplainWord(Word),
     /// Do this check against a known number.
     Check(usize),
     /// Stop a study; what is known of it stays.
@@ -50,6 +61,6 @@ pub enum Command {
 impl Command {
     /// Whether it puts something on the clipboard.
     pub fn is_copy(&self) -> bool {
-        matches!(self, Self::Share | Self::CopyModes)
+        matches!(self, Self::Share | Self::Embed | Self::CopyModes)
     }
 }

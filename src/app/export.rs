@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use eframe::egui::Rect;
 use serde_json::Value;
 
 use crate::app::facts::Facts;
@@ -13,7 +14,7 @@ use crate::scenario::report::{CriticalReport, StatusReport, parameter};
 use crate::study::{Answer, NoEigenvalues, Status, Study, Verdict, evenly};
 
 /// Something to save.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Content {
     /// The scenario file.
     Scenario,
@@ -23,8 +24,8 @@ pub enum Content {
     Plot(Plot),
     /// The numbers of the map.
     Map,
-    /// A picture of the plot on show.
-    PlotPicture,
+    /// A picture of a plot, which is there on the screen, in points.
+    PlotPicture(Rect),
     /// A picture of the canvas.
     CanvasPicture,
 }
@@ -172,17 +173,17 @@ fn places(known: &Known) -> Option<Table> {
             at = Box::new(move |i| vec![evenly(0.0, to, i, count).to_string()]);
             &["speed"]
         }
-        Study::Modes { .. } => return None,
         Study::Elements { counts, .. } => {
             at = Box::new(move |i| counts.get(i).map(ToString::to_string).into_iter().collect());
             &["elements_per_cable"]
         }
+        Study::Modes { .. } | Study::Border { .. } => return None,
     };
     let values: &[&str] = match answered().next()?.1 {
         Answer::Critical { .. } => &VERDICT,
         Answer::Growth(_) => &["growth_rate", "status"],
         Answer::Spectrum(_) => &["growth_rate", "frequency_hz", "status"],
-        Answer::Modes(_) => return None,
+        _ => return None,
     };
     let mut table = Table::new(&[header, values].concat());
     for (i, answer) in answered() {
@@ -200,7 +201,7 @@ fn places(known: &Known) -> Option<Table> {
                     table.rows.push(row(&[String::new(), String::new(), status(eigenvalues)]));
                 }
             }
-            Answer::Modes(_) => {}
+            _ => {}
         }
     }
     Some(table)

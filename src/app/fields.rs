@@ -56,11 +56,12 @@ impl Field {
 /// The numbers of the motion.
 pub const MOTION: [Parameter; 4] =
     [Parameter::Speed, Parameter::Direction, Parameter::Position(0), Parameter::Position(1)];
-/// Those of cables and platform.
-pub const BODY: [Parameter; 5] =
-    [Parameter::YoungsModulus, Parameter::Area, Parameter::MassPerLength, Parameter::PlatformMass, Parameter::Gravity];
-/// Damping and mesh.
-pub const MODEL: [Parameter; 3] = [Parameter::Alpha, Parameter::Beta, Parameter::Elements];
+/// Those of the cables' material.
+pub const ROPE: [Parameter; 3] = [Parameter::YoungsModulus, Parameter::Area, Parameter::MassPerLength];
+/// Those of the platform.
+pub const PLATFORM: [Parameter; 2] = [Parameter::PlatformMass, Parameter::Gravity];
+/// Damping.
+pub const DAMPING: [Parameter; 2] = [Parameter::Alpha, Parameter::Beta];
 
 /// The six coefficients of a cable's tension law.
 pub fn law(cable: usize) -> [Parameter; 6] {
@@ -70,7 +71,8 @@ pub fn law(cable: usize) -> [Parameter; 6] {
 }
 
 /// What the coefficients of a tension law mean.
-pub const LAW: &str = "A coefficient of the tension at the platform, T = hypot(h0 + hx x + hy y, v0 + vx x + vy y).";
+pub const LAW: &str = "The tension at the platform's end follows the position: T = √((h0 + hx x + hy y)² + (v0 + vx x + \
+                       vy y)²), as that of a force with a horizontal part and a vertical one.";
 const POSITION: &str = "The platform's position: x to the right, y up. Drag the platform on the canvas for the same.";
 const WINCH: &str = "Where the winch is: x to the right, y up. Once unlocked it can be dragged on the canvas.";
 
@@ -91,6 +93,10 @@ impl Field {
         let winch = |name, i: usize| {
             let more = 0.2 * (high[i] - low[i]);
             named(name, name, "m", [low[i] - more, high[i] + more], WINCH)
+        };
+        let coefficient = |name, i: usize| {
+            let (unit, end) = if i == 0 { ("N", 500.0) } else { ("N/m", 50.0) };
+            named(name, name, unit, [-end, end], LAW)
         };
         let logarithmic = |field: Self| Self { logarithmic: true, ..field };
         match parameter {
@@ -118,20 +124,25 @@ impl Field {
                 "E",
                 "MPa",
                 [1.0, 300_000.0],
-                "Young's modulus of the cables. With A it makes the axial stiffness EA of N(λ).",
+                "How hard the cables' material is to stretch. With the cross-section A it makes the axial stiffness EA.",
             )),
-            Parameter::Area => {
-                logarithmic(named("Cross-section", "A", "cm²", [0.001, 10.0], "Cross-section of the cables."))
-            }
+            Parameter::Area => logarithmic(named(
+                "Cross-section",
+                "A",
+                "cm²",
+                [0.001, 10.0],
+                "The area of a cable that carries its load.",
+            )),
             Parameter::MassPerLength => logarithmic(named(
                 "Cable mass",
                 "μ",
                 "kg/m",
                 [0.001, 10.0],
-                "Mass of the cables per unstretched length. The wave speed of a cable is √(T/μ).",
+                "Mass of a metre of cable without tension. Waves run along a cable at √(T/μ): slowly where it is heavy.",
             )),
             Parameter::PlatformMass => {
-                logarithmic(named("Platform mass", "m", "kg", [0.01, 1000.0], "Mass of the platform, a point mass."))
+                let meaning = "Mass of the platform. It counts as a point: it cannot turn.";
+                logarithmic(named("Platform mass", "m", "kg", [0.01, 1000.0], meaning))
             }
             Parameter::Gravity => {
                 named("Gravity", "g", "m/s²", [0.0, 20.0], "Gravitational acceleration. At 0 the cables are straight.")
@@ -141,19 +152,19 @@ impl Field {
                 "α",
                 "1/s",
                 [0.0, 5.0],
-                "Damping in proportion to mass: the α of αM + βK. It works against reeling-in, which feeds every \
-                 frequency alike.",
+                "Damping in proportion to mass, the α of αM + βK: all vibrations die out alike. It works against reeling \
+                 in, which feeds all of them alike.",
             ),
             Parameter::Beta => logarithmic(named(
                 "Stiffness damping",
                 "β",
                 "s",
                 [0.0, 0.1],
-                "Damping in proportion to elastic stiffness: the β of αM + βK. It calms high frequencies most.",
+                "Damping in proportion to stiffness, the β of αM + βK: fast vibrations die out first.",
             )),
             Parameter::Elements => {
-                let meaning = "Finite elements per cable. The error falls as 1/n² where a vibration grows, as 1/n for a \
-                               divergence; the work grows faster than n. Mesh, among the plots, tells how large it is.";
+                let meaning = "The straight pieces that each cable is computed as. The error falls as 1/n² for flutter, as 1/n for \
+                               a divergence; the work grows faster than n. The plot Mesh error tells how large it is.";
                 Self { integer: true, ..named("Elements per cable", "n", "", [2.0, 40.0], meaning) }
             }
             Parameter::Anchor(_, 0) => winch("x", 0),
@@ -165,15 +176,8 @@ impl Field {
                 [1.0, 10_000.0],
                 "The tension that the winch holds at the platform's end of this cable.",
             )),
-            Parameter::Horizontal(_, i) | Parameter::Vertical(_, i) => {
-                let names = match parameter {
-                    Parameter::Horizontal(..) => ["h0", "hx", "hy"],
-                    _ => ["v0", "vx", "vy"],
-                };
-                let name = names[i.min(2)];
-                let (unit, end) = if i == 0 { ("N", 500.0) } else { ("N/m", 50.0) };
-                named(name, name, unit, [-end, end], LAW)
-            }
+            Parameter::Horizontal(_, i) => coefficient(["h0", "hx", "hy"][i.min(2)], i),
+            Parameter::Vertical(_, i) => coefficient(["v0", "vx", "vy"][i.min(2)], i),
         }
     }
 }

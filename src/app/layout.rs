@@ -1,22 +1,25 @@
-//! Where everything is on the screen: side by side on a wide one, one below the other on a narrow one.
+//! Draws the parts of the screen, each where the arrangement has it.
 
-use std::ops::RangeInclusive;
+use eframe::egui::{Align, CursorIcon, Frame, Layout, Panel, Pos2, Rect, Role, Sense, Ui, UiBuilder, Vec2, WidgetInfo};
 
-use eframe::egui::{CentralPanel, Frame, Panel, Pos2, Rect, Ui, Vec2, containers::panel::PanelState};
-
+use super::arrangement::{self, Form, Places};
+use super::bar::{self, Possible};
 use super::command::Command;
 use super::facts::Facts;
-use super::menu::{self, Possible};
-use super::state::Page;
-use super::{Tautline, canvas, gestures, panels, theme};
-
-/// The least widths of the panels on the left and on the right, in points.
-const LEAST: [f32; 2] = [340.0, 280.0];
-/// So much is left to the canvas between them, as long as they can do with less.
-const CANVAS: f32 = 320.0;
+use super::icons::{Icon, IconButton};
+use super::panels::answer;
+use super::panels::controls::{self, Groups};
+use super::panels::plots::{self, Slot};
+use super::state::{Plot, Sheet};
+use super::{Tautline, canvas, gestures, regions, theme, transport, words};
+use crate::app::meaning::Explain as _;
 
 /// More lines at the foot of the window would cover the rest of it.
 const MOST_NOTICES: usize = 3;
+/// The legend of the canvas with the button below it is as high as this, in points.
+const LEGEND: f32 = 84.0;
+/// Room between a panel's edge and what is in it, in points.
+const MARGIN: f32 = 12.0;
 
 impl Tautline {
     pub(super) fn notice_bar(&mut self, ui: &mut Ui) {
@@ -43,132 +46,432 @@ impl Tautline {
         });
     }
 
-    pub(super) fn wide(&mut self, ui: &mut Ui) {
-        let room = ui.available_width() - CANVAS;
-        let shown = widths(self.state.panels, room);
-        let left = shown[0]..=shown[0].max(room - shown[1]);
-        let left = side(ui, Panel::left("controls"), "controls", LEAST[0], left, |ui| self.controls(ui));
-        let right = shown[1]..=shown[1].max(room - left);
-        let right = side(ui, Panel::right("answer"), "answer", LEAST[1], right, |ui| {
-            ui.add_space(6.0);
-            self.answer(ui);
-            ui.separator();
-            self.plots(ui);
-        });
-        let set = [left, right];
-        for ((kept, set), shown) in self.state.panels.iter_mut().zip(set).zip(shown) {
-            // Only a person changes a width. Where a small window has made it smaller, it comes back with the room.
-            if (set - shown).abs() > 0.5 {
-                *kept = set;
-            }
+    /// Draws everything in the window.
+    pub(super) fn screen(&mut self, ui: &mut Ui) {
+        let window = ui.available_rect_before_wrap();
+        let Self { state, session, .. } = self;
+        let places = arrangement::arrange(window, state.panels, session.embedded, session.present, self.screen.coarse);
+        self.screen.plots.clear();
+        self.edges(ui, &places, window);
+        if let Some(rect) = places.bar {
+            self.bar(ui, rect, places.form);
         }
-        CentralPanel::no_frame().show(ui, |ui| self.canvas(ui));
+        if let Some(rect) = places.column {
+            self.column(ui, rect);
+        }
+        if let Some(rect) = places.controls {
+            self.controls(ui, rect, places.form);
+        }
+        if let Some(rect) = places.line {
+            self.line(ui, rect);
+        }
+        if let Some(rect) = places.sheet {
+            self.sheet(ui, rect, places.form);
+        }
+        match self.session.large {
+            Some(plot) if places.form != Form::Present => {
+                self.screen.regions.plot = self.plot(ui, places.centre(), Slot::Large, plot);
+            }
+            _ => self.centre(ui, &places),
+        }
+        if let Some(rect) = places.plots {
+            let slot = if places.form == Form::Portrait { Slot::Under } else { Slot::Right };
+            let plot = if slot == Slot::Under { self.state.dock } else { self.state.plot };
+            self.screen.regions.plot = self.plot(ui, rect, slot, plot);
+            regions::mark(ui, places.second.map_or(rect, |second| rect.union(second)), "Plots");
+        }
+        if let Some(rect) = places.second {
+            self.plot(ui, rect, Slot::Second, self.state.second);
+        }
     }
 
-    pub(super) fn narrow(&mut self, ui: &mut Ui) {
-        let height = ui.available_height();
-        Panel::top("canvas").exact_size(0.4 * height).resizable(false).frame(Frame::NONE).show(ui, |ui| {
-            self.canvas(ui);
-        });
-        CentralPanel::default().show(ui, |ui| {
-            gestures::scroll(ui, |ui| {
-                self.answer(ui);
-                ui.separator();
-                ui.horizontal(|ui| {
-                    ui.selectable_value(&mut self.state.page, Page::Controls, "Controls");
-                    ui.selectable_value(&mut self.state.page, Page::Plots, "Plots");
-                });
-                match self.state.page {
-                    Page::Controls => {
-                        self.controls(ui);
-                    }
-                    Page::Plots => self.plots(ui),
-                }
+    /// The robot with what is under it.
+    fn centre(&mut self, ui: &mut Ui, places: &Places) {
+        self.canvas(ui, places);
+        if let Some(rect) = places.strip {
+            self.show(Plot::Line);
+            let facts = self.present.facts(self.state.settings, self.session.mode);
+            ui.painter().rect_filled(rect, 0.0, theme::tokens(ui.visuals()).canvas);
+            if let Some(view) = self.screen.canvas.view {
+                plots::strip(ui, rect, &view, facts, &mut self.commands);
+            }
+            regions::mark(ui, rect, "Dock");
+        }
+        if let Some(rect) = places.dock {
+            let slot = match places.form {
+                Form::Middle => Slot::Under,
+                Form::Present => Slot::Present,
+                _ => Slot::Dock,
+            };
+            let plot = if slot == Slot::Present { Plot::Line } else { self.state.dock };
+            let place = self.plot(ui, rect, slot, plot);
+            if places.plots.is_none() {
+                self.screen.regions.plot = place;
+            }
+            regions::mark(ui, rect, "Dock");
+        }
+        if let Some(rect) = places.transport {
+            let facts = self.present.facts(self.state.settings, self.session.mode);
+            let Self { state, session, commands, .. } = self;
+            if places.form == Form::Frame {
+                frame_row(&mut state.playback, session.mode, ui, rect, facts, commands);
+            } else {
+                transport::ui(&mut state.playback, session, ui, (rect, places.form), facts, commands);
+            }
+            regions::mark(ui, rect, "Transport");
+        }
+    }
+
+    fn canvas(&mut self, ui: &mut Ui, places: &Places) {
+        let rect = places.canvas;
+        let facts = self.present.facts(self.state.settings, self.session.mode);
+        let wide = matches!(places.form, Form::Wide | Form::Middle | Form::Portrait);
+        let card = if wide { answer::size(facts) + Vec2::new(0.0, 24.0) } else { Vec2::ZERO };
+        let compact = !wide && places.form != Form::Present;
+        // The legend is beside the card, or where the card would be.
+        let corner = if wide {
+            Rect::from_min_max(
+                Pos2::new(rect.min.x + card.x + 40.0, rect.min.y + MARGIN),
+                Pos2::new(rect.max.x - 24.0, rect.min.y + card.y),
+            )
+        } else {
+            Rect::from_min_size(rect.min + Vec2::new(MARGIN, 6.0), Vec2::new(rect.width() - 120.0, 46.0))
+        };
+        let beside = wide && is_beside(rect.size(), card, canvas::frame(&self.present.document.scenario).size().into());
+        let top = match places.form {
+            Form::Wide | Form::Middle | Form::Portrait if beside => 0.0,
+            Form::Wide | Form::Middle | Form::Portrait => card.y,
+            Form::Phone | Form::Low => 46.0,
+            Form::Frame | Form::Present => 0.0,
+        };
+        let left = if beside { card.x + 24.0 } else { 0.0 };
+        let corner = if beside {
+            // Under the card.
+            Rect::from_min_max(rect.min + Vec2::new(15.0, card.y), Pos2::new(rect.min.x + card.x, rect.max.y))
+        } else {
+            corner
+        };
+        let under = places.dock.or(places.strip).is_some();
+        let space = canvas::Space {
+            insets: canvas::Insets { top, left, ..canvas::Insets::default() },
+            corner,
+            compact,
+            legend: !matches!(places.form, Form::Frame | Form::Present) && (compact || corner.height() >= LEGEND),
+            pose_line: under
+                && (places.strip.is_some() || self.state.dock == Plot::Line || places.form == Form::Present),
+        };
+        let Self { screen, state, session, commands, .. } = self;
+        let inside = UiBuilder::new().max_rect(rect).id_salt("canvas");
+        screen.regions.canvas = ui
+            .scope_builder(inside, |ui| {
+                ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+                canvas::ui(&mut screen.canvas, state, session, ui, facts, space, commands)
+            })
+            .inner;
+        regions::mark(ui, rect, "Canvas");
+        if wide {
+            let corner = rect.min + Vec2::new(15.0, MARGIN);
+            screen.regions.answer = answer::card(ui, corner, facts, commands);
+            regions::mark(ui, screen.regions.answer, "Answer");
+        }
+        if matches!(places.form, Form::Phone | Form::Low) {
+            let button = Rect::from_min_size(rect.right_top() + Vec2::new(-100.0, 6.0), Vec2::new(92.0, 44.0));
+            let inside = UiBuilder::new().max_rect(button).layout(Layout::right_to_left(Align::Center));
+            ui.scope_builder(inside, |ui| {
+                transport::let_go(&mut state.playback, session.mode, ui, 44.0, commands);
             });
-        });
+        }
     }
 
-    /// What panels read.
-    pub(super) fn facts(&self) -> Facts<'_> {
-        self.present.facts(self.state.settings, self.session.mode)
+    /// Says that a plot is on the screen, so that its study is asked for.
+    fn show(&mut self, plot: Plot) {
+        if !self.screen.plots.contains(&plot) {
+            self.screen.plots.push(plot);
+        }
     }
 
-    fn answer(&mut self, ui: &mut Ui) {
-        let top = ui.cursor().min;
-        panels::answer::ui(ui, self.facts());
-        self.screen.regions.answer = Rect::from_min_max(top, ui.min_rect().max).intersect(ui.clip_rect());
-    }
-
-    fn controls(&mut self, ui: &mut Ui) {
-        let facts = self.present.facts(self.state.settings, self.session.mode);
-        panels::controls::ui(&mut self.session, ui, facts, &mut self.commands);
-        self.screen.regions.controls = ui.min_rect().intersect(ui.clip_rect());
-    }
-
-    fn plots(&mut self, ui: &mut Ui) {
-        self.screen.plots_open = true;
-        let facts = self.present.facts(self.state.settings, self.session.mode);
-        let place = panels::plots::ui(&mut self.state, &mut self.session, ui, facts, &mut self.commands);
-        self.screen.regions.plot = place.intersect(ui.clip_rect());
-    }
-
-    fn canvas(&mut self, ui: &mut Ui) {
+    /// One plot with its tabs in `rect`. Gives where it is.
+    fn plot(&mut self, ui: &mut Ui, rect: Rect, slot: Slot, plot: Plot) -> Rect {
+        self.show(plot);
+        let tokens = theme::tokens(ui.visuals());
+        ui.painter().rect_filled(rect, 0.0, if slot == Slot::Present { tokens.canvas } else { tokens.panel });
+        if slot != Slot::Present {
+            ui.painter().hline(rect.x_range(), rect.min.y + 0.5, (1.0, tokens.line));
+            ui.painter().vline(rect.min.x + 0.5, rect.y_range(), (1.0, tokens.line));
+        }
         let facts = self.present.facts(self.state.settings, self.session.mode);
         let Self { screen, state, session, commands, .. } = self;
-        screen.regions.canvas = canvas::ui(&mut screen.canvas, state, session, ui, facts, commands);
+        // Under the robot a study along the line has the robot's x axis.
+        let shared = matches!(slot, Slot::Dock | Slot::Present)
+            || (slot == Slot::Under && (rect.min.x - screen.regions.canvas.min.x).abs() < 1.0);
+        let view = screen.canvas.view.filter(|_| shared);
+        let margin = if shared { Vec2::ZERO } else { Vec2::new(MARGIN, 0.0) };
+        let mut room = rect.shrink2(margin);
+        if matches!(slot, Slot::Right | Slot::Second | Slot::Large) {
+            room.min.y += 8.0;
+        }
+        let inside = UiBuilder::new().max_rect(room).id_salt(("plot", slot));
+        let place = ui.scope_builder(inside, |ui| {
+            ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+            plots::ui(slot, state, session, ui, facts, view.as_ref(), commands)
+        });
+        place.inner.intersect(rect)
     }
 
-    pub(super) fn menu(&mut self, ui: &mut Ui) {
+    fn bar(&mut self, ui: &mut Ui, rect: Rect, form: Form) {
         let possible = Possible {
             undo: self.history.can_undo(&self.present.document),
             redo: self.history.can_redo(&self.present.document),
             reset: self.present.document.scenario != self.present.document.original,
             unpin: self.present.pinned.is_some(),
         };
-        menu::ui(&mut self.state, &mut self.session, ui, possible, &mut self.commands);
-    }
-}
-
-/// A panel at a side, as wide as `width` begins, whatever is in it. Gives how wide it is to be from now on: its edge can
-/// be dragged from the least to the end of `width`.
-fn side(
-    ui: &mut Ui,
-    panel: Panel,
-    name: &str,
-    least: f32,
-    width: RangeInclusive<f32>,
-    content: impl FnOnce(&mut Ui),
-) -> f32 {
-    // egui keeps the width of a panel's content; the width that a person has set is kept here.
-    let outer_rect = Rect::from_min_size(Pos2::ZERO, Vec2::new(*width.start(), ui.available_height()));
-    let id = ui.scope_id().with(name);
-    ui.data_mut(|data| data.insert_persisted(id, PanelState { outer_rect }));
-    let panel = panel.size_range(least..=*width.end()).show(ui, |ui| gestures::scroll(ui, content));
-    panel.response.rect.width()
-}
-
-/// How wide the panels are where they have so much room together, in points.
-fn widths(set: [f32; 2], room: f32) -> [f32; 2] {
-    let more = [0, 1].map(|i| if set[i].is_finite() { (set[i] - LEAST[i]).max(0.0) } else { 0.0 });
-    let left = (room - LEAST[0] - LEAST[1]).max(0.0);
-    let part = (left / (more[0] + more[1]).max(1.0)).min(1.0);
-    [0, 1].map(|i| LEAST[i] + part * more[i])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn panels_are_as_wide_as_set_where_there_is_room() {
-        let near = |a: [f32; 2], b: [f32; 2]| (a[0] - b[0]).abs() < 0.01 && (a[1] - b[1]).abs() < 0.01;
-        assert!(near(widths([380.0, 340.0], 960.0), [380.0, 340.0]));
-        assert!(near(widths([900.0, 340.0], 1600.0), [900.0, 340.0]));
-        for set in [[900.0, 900.0], [2000.0, 280.0], [f32::INFINITY, 400.0], [f32::NAN, -1.0]] {
-            let [left, right] = widths(set, 960.0);
-            assert!(left >= LEAST[0] && right >= LEAST[1] && left + right <= 960.01, "{left} {right}");
+        let facts = self.present.facts(self.state.settings, self.session.mode);
+        let Self { screen, state, session, commands, .. } = self;
+        if let Some(answer) = bar::ui(state, session, ui, (rect, form), possible, facts, commands) {
+            screen.regions.answer = answer;
+            regions::mark(ui, answer, "Answer");
         }
-        // Where there is no room they take the least that they can do with.
-        assert!(near(widths([380.0, 340.0], 480.0), LEAST));
+        regions::mark(ui, rect, "Bar");
     }
+
+    fn controls(&mut self, ui: &mut Ui, rect: Rect, form: Form) {
+        let tokens = theme::tokens(ui.visuals());
+        ui.painter().rect_filled(rect, 0.0, tokens.panel);
+        ui.painter().vline(rect.max.x - 0.5, rect.y_range(), (1.0, tokens.line));
+        self.screen.regions.controls = rect;
+        if form == Form::Portrait {
+            let all = [Sheet::Move, Sheet::Robot, Sheet::Explain];
+            self.tabs(ui, rect, form, &all);
+        } else {
+            self.within(ui, rect, "All", |app, ui| app.groups(ui, Groups::All, app.screen.coarse));
+        }
+        regions::mark(ui, rect, "Controls");
+    }
+
+    /// What is in a panel, which scrolls where it is small.
+    fn within(&mut self, ui: &mut Ui, rect: Rect, name: &str, content: impl FnOnce(&mut Self, &mut Ui)) {
+        // Each keeps its own place when it is scrolled.
+        ui.scope_builder(UiBuilder::new().max_rect(rect).id_salt(name), |ui| {
+            ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+            gestures::scroll(ui, |ui| {
+                // The margin belongs to what scrolls: fingers swipe there, and it has room for the scroll bar.
+                Frame::new().inner_margin(Vec2::new(MARGIN, 0.0)).show(ui, |ui| {
+                    // A scroll bar that comes and goes changes no widths; one point less, or there would be one for it.
+                    ui.set_width(rect.width() - 2.0 * MARGIN - 1.0);
+                    content(self, ui);
+                });
+            });
+        });
+    }
+
+    fn groups(&mut self, ui: &mut Ui, groups: Groups, touch: bool) {
+        let facts = self.present.facts(self.state.settings, self.session.mode);
+        let Self { state, session, commands, .. } = self;
+        controls::ui(&mut state.sections, session, ui, (groups, touch), facts, commands);
+    }
+
+    /// The answer in a line that stays.
+    fn line(&mut self, ui: &mut Ui, rect: Rect) {
+        let tokens = theme::tokens(ui.visuals());
+        ui.painter().rect_filled(rect, 0.0, tokens.panel);
+        ui.painter().hline(rect.x_range(), rect.min.y + 0.5, (1.0, tokens.line));
+        ui.painter().hline(rect.x_range(), rect.max.y - 0.5, (1.0, tokens.line));
+        let facts = self.present.facts(self.state.settings, self.session.mode);
+        let inner = rect.shrink2(Vec2::new(MARGIN, 0.0));
+        let inside = UiBuilder::new().max_rect(inner).layout(Layout::right_to_left(Align::Center));
+        let state = &mut self.state;
+        let commands = &mut self.commands;
+        ui.scope_builder(inside, |ui| {
+            let icon = if state.sheet == Sheet::Explain { Icon::ChevronDown } else { Icon::ChevronUp };
+            let button = IconButton::new(icon, "What this means").height(44.0).show(ui);
+            if button.clicked() {
+                state.sheet = if state.sheet == Sheet::Explain { Sheet::Move } else { Sheet::Explain };
+            }
+            if facts.answers.pose_failed()
+                && facts.answers.last_feasible().is_some()
+                && IconButton::new(Icon::ArrowLeft, "Back to the last feasible pose")
+                    .height(44.0)
+                    .primary()
+                    .show(ui)
+                    .clicked()
+            {
+                commands.push(Command::BackToFeasible);
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| answer::line(ui, facts));
+        });
+        self.screen.regions.answer = rect;
+        regions::mark(ui, rect, "Answer");
+    }
+
+    /// The sheet of a phone: four tabs and what is under them.
+    fn sheet(&mut self, ui: &mut Ui, rect: Rect, form: Form) {
+        let tokens = theme::tokens(ui.visuals());
+        ui.painter().rect_filled(rect, 0.0, tokens.panel);
+        ui.painter().vline(rect.min.x + 0.5, rect.y_range(), (1.0, tokens.line));
+        self.screen.regions.controls = rect;
+        self.tabs(ui, rect, form, &Sheet::ALL.map(|(sheet, _)| sheet));
+        regions::mark(ui, rect, "Sheet");
+    }
+
+    fn tabs(&mut self, ui: &mut Ui, rect: Rect, form: Form, all: &[Sheet]) {
+        let tokens = theme::tokens(ui.visuals());
+        let height = if form == Form::Low { 44.0 } else { 48.0 };
+        let (head, body) = rect.split_top_bottom_at_y(rect.min.y + height);
+        let width = head.width() / all.len() as f32;
+        let chosen = if all.contains(&self.state.sheet) { self.state.sheet } else { Sheet::Move };
+        ui.painter().hline(head.x_range(), head.max.y - 0.5, (1.0, tokens.line));
+        for (i, sheet) in all.iter().enumerate() {
+            let name = Sheet::ALL.iter().find(|(other, _)| other == sheet).map_or("", |(_, name)| name);
+            let place = Rect::from_min_size(head.min + Vec2::new(i as f32 * width, 0.0), Vec2::new(width, height));
+            let response = ui.interact(place, ui.scope_id().with(("sheet", name)), Sense::click());
+            let on = chosen == *sheet;
+            response.widget_info(|| WidgetInfo::selected(Role::Tab, true, on, name));
+            let font = eframe::egui::TextStyle::Body.resolve(ui.style());
+            let colour = if on { tokens.text } else { tokens.weak };
+            ui.painter().text(place.center(), eframe::egui::Align2::CENTER_CENTER, name, font, colour);
+            if on {
+                ui.painter().hline(place.x_range(), place.max.y - 1.0, (2.0, tokens.accent));
+            }
+            if response.has_focus() {
+                let stroke = eframe::egui::Stroke::new(2.0, tokens.accent);
+                ui.painter().rect_stroke(place.shrink(2.0), 4.0, stroke, eframe::egui::StrokeKind::Inside);
+            }
+            if response.clicked() {
+                self.state.sheet = *sheet;
+            }
+        }
+        match chosen {
+            Sheet::Plots => self.screen.regions.plot = self.plot(ui, body, Slot::Sheet, self.state.plot),
+            Sheet::Move => self.within(ui, body, "Move", |app, ui| {
+                ui.add_space(6.0);
+                app.groups(ui, Groups::Motion, true);
+                ui.add_space(6.0);
+                app.motion_buttons(ui);
+            }),
+            Sheet::Robot => self.within(ui, body, "Robot", |app, ui| app.groups(ui, Groups::Robot, true)),
+            Sheet::Explain => self.within(ui, body, "Explain", |app, ui| {
+                ui.add_space(8.0);
+                let facts = app.present.facts(app.state.settings, app.session.mode);
+                words::explain(&mut app.session, ui, facts, &mut app.commands);
+            }),
+        }
+    }
+
+    /// What a finger wants of the motion: back to the beginning, and round.
+    fn motion_buttons(&mut self, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            let document = &self.present.document;
+            let home = document.original.motion.position;
+            let now = document.scenario.motion.position;
+            let is_there = now.iter().zip(home).all(|(now, home)| now.total_cmp(&home).is_eq());
+            let button = IconButton::new(Icon::Home, "Home pose").text("Home pose").height(44.0).framed();
+            let button = ui.add_enabled_ui(!is_there, |ui| button.show(ui)).inner;
+            if button.explained("Where the platform was when the robot was opened").clicked() {
+                let mut scenario = document.scenario.clone();
+                scenario.motion.position = home;
+                self.commands.push(Command::Edit(Box::new(scenario)));
+            }
+            let button = IconButton::new(Icon::Turn, "Turn round").text("Turn round").height(44.0).framed().show(ui);
+            if button.explained("Moves in the opposite direction").clicked() {
+                self.commands.push(bar::turned(document));
+            }
+        });
+    }
+
+    /// The left column of a presentation.
+    fn column(&mut self, ui: &mut Ui, rect: Rect) {
+        let tokens = theme::tokens(ui.visuals());
+        ui.painter().rect_filled(rect, 0.0, tokens.canvas);
+        let facts = self.present.facts(self.state.settings, self.session.mode);
+        let inner = rect.shrink2(Vec2::new(20.0, 16.0));
+        let (upper, lower) = inner.split_top_bottom_at_y(inner.max.y - 104.0);
+        let Self { state, session, commands, .. } = self;
+        ui.scope_builder(UiBuilder::new().max_rect(upper), |ui| {
+            ui.set_clip_rect(upper.intersect(ui.clip_rect()));
+            answer::column(ui, facts, commands);
+        });
+        self.screen.regions.answer = upper;
+        ui.scope_builder(UiBuilder::new().max_rect(lower), |ui| {
+            controls::speed(ui, facts, commands);
+            ui.horizontal(|ui| {
+                transport::let_go(&mut state.playback, session.mode, ui, 32.0, commands);
+                let button = IconButton::new(Icon::Map, "Map").text("Map").height(32.0).selected(state.map.on).framed();
+                if button.show(ui).clicked() {
+                    state.map.on = !state.map.on;
+                }
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let button = IconButton::new(Icon::Close, "End the presentation").height(32.0).show(ui);
+                    if button.explained("Esc does the same").clicked() {
+                        session.present = false;
+                    }
+                });
+            });
+        });
+        self.screen.regions.controls = lower;
+        regions::mark(ui, rect, "Answer");
+    }
+
+    /// The edges of panels, to be dragged.
+    fn edges(&mut self, ui: &mut Ui, places: &Places, window: Rect) {
+        for (edge, name, rect) in places.edges() {
+            let upright = rect.height() > rect.width();
+            let cursor = if upright { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical };
+            let layer = eframe::egui::LayerId::new(eframe::egui::Order::Middle, ui.scope_id().with(name));
+            // Above the panels, which are drawn after it.
+            let response = ui
+                .scope_builder(UiBuilder::new().layer_id(layer).max_rect(rect), |ui| {
+                    ui.interact(rect, ui.scope_id().with(name), Sense::drag())
+                })
+                .inner;
+            response.widget_info(|| WidgetInfo::labeled(Role::Splitter, true, name));
+            let response = response.on_hover_and_drag_cursor(cursor);
+            if response.dragged()
+                && let Some(to) = response.interact_pointer_pos()
+            {
+                places.resize(&mut self.state.panels, edge, to, window);
+            }
+        }
+    }
+
+    /// What panels read.
+    pub(super) fn facts(&self) -> Facts<'_> {
+        self.present.facts(self.state.settings, self.session.mode)
+    }
+}
+
+/// Whether the robot is shown larger beside the card than below it. `frame` is the size of its workspace in m.
+fn is_beside(canvas: Vec2, card: Vec2, frame: [f64; 2]) -> bool {
+    const NUMBERS: Vec2 = Vec2::new(68.0, 48.0);
+    #[expect(clippy::cast_possible_truncation)] // Two sizes are compared.
+    let [width, height] = frame.map(|side| side as f32);
+    let scale = |room: Vec2| (room.x / width).min(room.y / height);
+    let below = scale(canvas - NUMBERS - Vec2::new(0.0, card.y));
+    // On the other side as much room is left as the winches' numbers need.
+    let beside = scale(canvas - NUMBERS - Vec2::new(card.x + 24.0, 0.0));
+    beside > 1.15 * below
+}
+
+/// The one row of a frame: let go, speed, and the whole program.
+fn frame_row(
+    playback: &mut super::state::Playback,
+    mode: crate::compute::protocol::ModeChoice,
+    ui: &mut Ui,
+    rect: Rect,
+    facts: Facts<'_>,
+    commands: &mut Vec<Command>,
+) {
+    let tokens = theme::tokens(ui.visuals());
+    ui.painter().rect_filled(rect, 0.0, tokens.panel);
+    ui.painter().hline(rect.x_range(), rect.min.y + 0.5, (1.0, tokens.line));
+    let inside = UiBuilder::new().max_rect(rect.shrink2(Vec2::new(MARGIN, 0.0)));
+    ui.scope_builder(inside.layout(Layout::left_to_right(Align::Center)), |ui| {
+        transport::let_go(playback, mode, ui, 32.0, commands);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let text = if rect.width() > 500.0 { "Open in Tautline" } else { "" };
+            if IconButton::new(Icon::Open, "Open in Tautline").text(text).show(ui).clicked() {
+                commands.push(Command::OpenWhole);
+            }
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| controls::speed_in_a_row(ui, facts, commands));
+        });
+    });
 }

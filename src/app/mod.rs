@@ -4,8 +4,12 @@
 //! commands; [`Tautline::logic`](eframe::App::logic) carries them out, sends the document to the engine and
 //! takes in its replies.
 
+#[cfg(any(test, target_arch = "wasm32"))]
+mod announce;
 mod answers;
 mod apply;
+mod arrangement;
+mod bar;
 mod canvas;
 mod certainty;
 mod command;
@@ -17,9 +21,10 @@ mod fields;
 mod files;
 mod gestures;
 mod history;
+mod icons;
+mod keys;
 mod layout;
 mod meaning;
-mod menu;
 #[cfg(target_arch = "wasm32")]
 mod mirror;
 mod notices;
@@ -42,7 +47,11 @@ mod tests;
 mod theme;
 mod tone;
 mod tour;
+mod transport;
+mod tree;
+mod view_link;
 mod windows;
+mod words;
 
 use std::time::Duration;
 
@@ -61,15 +70,17 @@ use screen::Screen;
 use state::{Document, Session, UiState};
 use studies::{Joined, Owner, SharedPool, Studies};
 
+pub use tree::layout;
+
 use crate::compute::Pool;
 use crate::compute::protocol::{Reply, Request, Revision, Topic, Update, Which};
 use crate::scenario::{Report, Scenario, presets};
 
 #[cfg(target_arch = "wasm32")]
-pub use page::{take_kept, take_link};
+pub use page::{is_embedded, take_kept, take_link};
 
-/// Below this width, in points, the panels go under the canvas.
-const NARROW: f32 = 760.0;
+/// All texts of a presentation are this much larger.
+const PRESENTED: f32 = 1.5;
 /// While studies are at work the pool is looked after at least this often.
 const HEARTBEAT: Duration = Duration::from_millis(100);
 /// While the engine owes an answer it is looked after at least this often.
@@ -105,6 +116,8 @@ pub struct Start {
     pub link: Option<String>,
     /// Whether first visitors are shown around.
     pub tour: bool,
+    /// The page is a frame in another page.
+    pub embedded: bool,
 }
 
 /// The analysis on show.
@@ -121,11 +134,16 @@ pub struct OnShow<'a> {
 impl Tautline {
     /// The application. Where it is not told what to show, it shows what it showed when it ended, else the paper's robot.
     pub fn new(context: &eframe::CreationContext<'_>, start: Start) -> Self {
-        let own = persist::own();
-        let storages: Vec<&dyn eframe::Storage> = own.as_deref().into_iter().chain(context.storage).collect();
+        // A frame in somebody's page keeps nothing: what it shows is the page's, and not the visitor's own.
+        let own = if start.embedded { None } else { persist::own() };
+        let shared = context.storage.filter(|_| !start.embedded);
+        let storages: Vec<&dyn eframe::Storage> = own.as_deref().into_iter().chain(shared).collect();
         let context = &context.egui_ctx;
         theme::install_fonts(context);
+        let coarse = coarse_pointer();
+        theme::install_style(context, coarse);
         gestures::install(context);
+        tree::install(context);
         let wake_for_studies = context.clone();
         // Held until the first answer is there, which comes before all studies.
         let mut pool = Pool::new(move || wake_for_studies.request_repaint());
@@ -135,6 +153,7 @@ impl Tautline {
         let state = persist::state(&storages).unwrap_or_default();
         let first = || presets::PRESETS[0].scenario();
         let mut notices = Notices::default();
+        let view = start.link.as_deref().and_then(view_link::part).map(ToOwned::to_owned);
         let linked = start.link.map(|link| {
             files::scenario(&link).unwrap_or_else(|text| {
                 notices.complain(About::Action, text);
@@ -158,7 +177,7 @@ impl Tautline {
             history,
             state,
             session: Session::default(),
-            screen: Screen::default(),
+            screen: Screen { coarse, zoom: 1.0, ..Screen::default() },
             engine: Engine::new(context),
             pool: SharedPool::new(pool),
             files: Files::new(context),
@@ -170,8 +189,12 @@ impl Tautline {
             #[cfg(target_arch = "wasm32")]
             tone: tone::Tone::default(),
         };
-        if start.tour && !app.state.tour_taken {
-            app.session.tour = Some(0);
+        app.session.embedded = start.embedded;
+        if start.tour && !app.state.tour_taken && !start.embedded {
+            app.session.tour = Some(tour::Tour::default());
+        }
+        if let Some(view) = view {
+            view_link::apply(&view, &mut app.state, &mut app.session);
         }
         if app.state.settings.reduces_motion() {
             app.reduce_motion(context);
@@ -218,7 +241,7 @@ impl Tautline {
 
     /// The topics that have a study at work, for the present design or the pinned one.
     pub fn at_work(&self) -> Vec<Topic> {
-        studies::TOPICS.into_iter().filter(|topic| self.pool.is_at_work(*topic)).collect()
+        Topic::ALL.into_iter().filter(|topic| self.pool.is_at_work(*topic)).collect()
     }
 
     /// Has the document analysed as it is now.
@@ -248,17 +271,20 @@ impl Tautline {
     fn study_on(&mut self) {
         let critical =
             self.present.answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.speed);
-        let plot = self.screen.plots_open.then_some(self.state.plot);
+        // A pose without an answer has no studies of its own: those of the last one stay, grey.
+        let of_pose = |plot: &state::Plot| *plot != state::Plot::Line && self.present.answers.pose_failed();
+        let plots: Vec<state::Plot> = self.screen.plots.iter().copied().filter(|plot| !of_pose(plot)).collect();
+        let plots = plots.as_slice();
         let at_rest = self.present.answers.all_current() && !self.context.input(|input| input.pointer.any_down());
-        let wishes = studies::wanted(&self.present.document.scenario, &self.state, plot, critical, at_rest);
+        let wishes = studies::wanted(&self.present.document.scenario, &self.state, plots, critical, at_rest);
         let orders = self.present.studies.want(wishes);
         let idle = !self.present.studies.is_working();
         // The pool has one study of each topic: the pinned design's go first, to make room for the present one's.
-        let for_pinned = self.present.pinned.as_mut().map(|pinned| pinned.want(idle, &self.state, plot));
+        let for_pinned = self.present.pinned.as_mut().map(|pinned| pinned.want(idle, &self.state, plots));
         self.pool.carry_out(Owner::Pinned, for_pinned.into_iter().flatten());
         self.pool.carry_out(Owner::Present, orders);
         let diagram =
-            (plot == Some(state::Plot::Campbell)).then(|| self.present.studies.shown(Topic::Campbell)).flatten();
+            plots.contains(&state::Plot::Campbell).then(|| self.present.studies.shown(Topic::Campbell)).flatten();
         let order = self.present.joined.want(diagram.map(|shown| shown.known), self.state.campbell_hz);
         self.pool.carry_out(Owner::Present, order);
         // Both want all of the machine; who drags must not wait. Between two poses the studies go on, so that the line
@@ -312,10 +338,9 @@ impl Tautline {
         if !self.state.playback.playing {
             return;
         }
-        if let Some(shape) = self.present.answers.shape() {
+        if self.present.answers.shape().is_some() {
             let seconds = f64::from(context.input(|input| input.stable_dt)).min(0.1);
-            let advance = canvas::phase_advance(shape, &self.state.playback, seconds);
-            self.state.playback.phase = (self.state.playback.phase + advance) % std::f64::consts::TAU;
+            canvas::advance(&mut self.state.playback, &self.present.answers, seconds);
             context.request_repaint();
         }
     }
@@ -334,11 +359,20 @@ impl Tautline {
         if settings.motion != self.screen.applied.motion && settings.reduces_motion() {
             self.reduce_motion(context);
         }
+        let present = if self.session.present { PRESENTED } else { 1.0 };
+        let zoom = present * 0.01 * f32::from(settings.text_percent);
+        if (zoom - self.screen.zoom).abs() > 1e-3 {
+            self.screen.zoom = zoom;
+            context.set_zoom_factor(zoom);
+        }
         self.screen.applied = settings;
     }
 
     /// Writes down what is to survive a restart.
     fn keep(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
+        if self.session.embedded {
+            return;
+        }
         // Coming back to a window makes it the one that was used last.
         if context.input(|input| input.events.contains(&Event::WindowFocused(true))) {
             self.kept.keeper.renew();
@@ -361,9 +395,20 @@ impl Tautline {
     }
 }
 
+/// Whether the pointer is a finger. Desktop systems do not tell.
+fn coarse_pointer() -> bool {
+    #[cfg(target_arch = "wasm32")]
+    let coarse = web_sys::window()
+        .and_then(|window| window.match_media("(pointer: coarse)").ok().flatten())
+        .is_some_and(|query| query.matches());
+    #[cfg(not(target_arch = "wasm32"))]
+    let coarse = false;
+    coarse
+}
+
 impl eframe::App for Tautline {
     fn logic(&mut self, context: &egui::Context, frame: &mut eframe::Frame) {
-        menu::keys(&mut self.state, &mut self.session, context, &mut self.commands);
+        keys::carry_out(&mut self.state, &mut self.session, context, &mut self.commands);
         self.commands.extend(self.files.poll(context));
         #[cfg(target_arch = "wasm32")]
         self.commands.extend(self.page.news());
@@ -406,18 +451,14 @@ impl eframe::App for Tautline {
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
-        self.menu(ui);
         self.notice_bar(ui);
-        self.screen.plots_open = false;
-        if ui.available_width() < NARROW {
-            self.narrow(ui);
-        } else {
-            self.wide(ui);
-        }
+        self.screen(ui);
         let Self { screen, session, state, commands, .. } = self;
         windows::ui(&mut screen.windows, &mut session.windows, &mut state.settings, ui.ctx(), commands);
         files::announce_drop(ui.ctx());
-        tour::ui(&mut self.state, &mut self.session, ui.ctx(), &self.screen.regions);
+        words::ui(&mut self.session.word, ui.ctx());
+        let facts = self.present.facts(self.state.settings, self.session.mode);
+        tour::ui(&mut self.state, &mut self.session, ui.ctx(), &self.screen.regions, facts);
         // A browser lets a page write to the clipboard only while it handles the click that asks for it.
         for command in self.commands.extract_if(.., |command| command.is_copy()).collect::<Vec<_>>() {
             self.apply(ui.ctx(), command);
@@ -429,6 +470,9 @@ impl eframe::App for Tautline {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        if self.session.embedded {
+            return;
+        }
         persist::keep_state(&mut persist::storages(&mut self.kept.own, Some(storage)), &self.state);
     }
 

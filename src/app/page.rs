@@ -9,10 +9,13 @@ use js_sys::{Array, JSON, Object, Reflect};
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::*;
 
+use crate::app::announce::{self, Rest};
 use crate::app::command::Command;
 use crate::app::facts::Facts;
 use crate::app::mirror;
-use crate::app::studies::{Known, Stage, Studies, TOPICS};
+use crate::app::regions;
+use crate::app::studies::{Known, Stage, Studies};
+use crate::app::tree;
 use crate::compute::protocol::{Revision, Topic};
 use crate::scenario::report::{CriticalReport, StatusReport};
 use crate::scenario::{Scenario, link};
@@ -24,15 +27,32 @@ const SUMMARY: &str = "tautline-summary";
 const DETAILS: &str = "tautline-details";
 /// What the line at the foot of the window says.
 const NOTICE: &str = "tautline-notice";
+/// What has the keyboard's focus.
+const FOCUS: &str = "tautline-focus";
+/// Results are told after they have rested so long, in seconds, and what has the focus after this.
+const RESULTS_REST: f64 = 0.7;
+const FOCUS_RESTS: f64 = 0.3;
+/// What is told is looked at this often, in seconds.
+const LOOK: f64 = 0.1;
+/// The same for egui, with a little more, so that the time has come then.
+const LOOK_AGAIN: f32 = 0.11;
 /// So many frames' times are kept.
 const FRAMES: usize = 120;
 
 /// The page's side of the application.
 pub struct Page {
     shared: Rc<RefCell<Shared>>,
-    summary: String,
-    details: Vec<String>,
+    context: egui::Context,
+    /// When it was looked last whether there is something to tell, in seconds.
+    looked: f64,
+    summary: Rest<String>,
+    details: Rest<Vec<String>>,
+    /// What has the focus, and the region that it is in.
+    focus: Rest<(String, String)>,
+    region: String,
     notice: String,
+    /// What the page was called at first, and what it is called now.
+    titles: [String; 2],
 }
 
 #[derive(Default)]
@@ -59,8 +79,14 @@ pub fn address() -> String {
     href.split('#').next().unwrap_or_default().to_owned()
 }
 
-/// The link in the page's address, if it has one. It is taken out of the address: what is done from then on must not be
-/// undone by loading the page again.
+/// Whether the page is a frame in another page.
+pub fn is_embedded() -> bool {
+    let Some(window) = web_sys::window() else { return false };
+    window.parent().ok().flatten().is_some_and(|parent| parent != window)
+}
+
+/// The link in the page's address, if it has one: the robot and how it is looked at. It is taken out of the address: what
+/// is done from then on must not be undone by loading the page again.
 pub fn take_link() -> Option<String> {
     let window = web_sys::window()?;
     let hash = window.location().hash().ok().filter(|hash| hash.starts_with(link::MARK))?;
@@ -115,7 +141,18 @@ impl Page {
             });
             let _ = window.add_event_listener_with_callback("hashchange", went.into_js_value().unchecked_ref());
         }
-        Self { shared, summary: String::new(), details: Vec::new(), notice: String::new() }
+        let title = document().map_or_else(String::new, |document| document.title());
+        Self {
+            shared,
+            context: context.clone(),
+            looked: 0.0,
+            summary: Rest::new(RESULTS_REST),
+            details: Rest::new(RESULTS_REST),
+            focus: Rest::new(FOCUS_RESTS),
+            region: String::new(),
+            notice: String::new(),
+            titles: [title.clone(), title],
+        }
     }
 
     /// What a script has loaded since the last call, and the link that the user has gone to.
@@ -152,7 +189,60 @@ impl Page {
             });
         }
         drop(shared);
-        self.mirror(facts);
+        self.name(document.scenario.name.as_deref());
+        self.announce(facts);
+    }
+
+    /// Calls the page by the robot's name, in the browser's tabs and bookmarks.
+    fn name(&mut self, robot: Option<&str>) {
+        let [first, now] = &mut self.titles;
+        let title = robot.map_or_else(|| first.clone(), |robot| format!("{robot} – {first}"));
+        if title != *now {
+            if let Some(document) = document() {
+                document.set_title(&title);
+            }
+            *now = title;
+        }
+    }
+
+    /// Tells screen readers what is new, once it rests.
+    fn announce(&mut self, facts: Facts<'_>) {
+        let now = self.context.input(|input| input.time);
+        if (0.0..LOOK).contains(&(now - self.looked)) {
+            self.context.request_repaint_after_secs(LOOK_AGAIN);
+            return;
+        }
+        self.looked = now;
+        let items = tree::items(&self.context);
+        let summary = mirror::summary(facts);
+        let details = summary.is_some().then(|| {
+            let mut details = mirror::details(facts);
+            details.extend(announce::findings(&items));
+            details
+        });
+        if let Some(summary) = self.summary.take(summary, now) {
+            write(SUMMARY, &summary);
+        }
+        if let Some(details) = self.details.take(details, now) {
+            list(DETAILS, &details);
+        }
+        let focused = tree::focused(&self.context);
+        let focused = items.iter().find(|item| Some(item.node) == focused).map(|item| {
+            let region = regions::around(item, &items).map_or_else(String::new, |index| items[index].label.clone());
+            (announce::sentence(item, &items), region)
+        });
+        if focused.is_none() {
+            self.focus.forget();
+        }
+        if let Some((sentence, region)) = self.focus.take(focused, now) {
+            let entered =
+                if region == self.region || region.is_empty() { String::new() } else { format!("{region}: ") };
+            write(FOCUS, &format!("{entered}{sentence}"));
+            self.region = region;
+        }
+        if self.summary.is_waiting() || self.details.is_waiting() || self.focus.is_waiting() {
+            self.context.request_repaint_after_secs(LOOK_AGAIN);
+        }
     }
 
     /// Writes a line for the user into the document.
@@ -163,36 +253,13 @@ impl Page {
             self.notice = notice;
         }
     }
-
-    /// Writes the main results into the document, once they are known.
-    fn mirror(&mut self, facts: Facts<'_>) {
-        let Some(summary) = mirror::summary(facts) else { return };
-        let details = mirror::details(facts);
-        if (&summary, &details) == (&self.summary, &self.details) {
-            return;
-        }
-        let Some(document) = web_sys::window().and_then(|window| window.document()) else { return };
-        if summary != self.summary {
-            write(SUMMARY, &summary);
-        }
-        if let Some(list) = document.get_element_by_id(DETAILS) {
-            list.set_text_content(None);
-            for line in &details {
-                if let Ok(item) = document.create_element("li") {
-                    item.set_text_content(Some(line));
-                    let _ = list.append_child(&item);
-                }
-            }
-        }
-        (self.summary, self.details) = (summary, details);
-    }
 }
 
 impl Shared {
     fn publish_studies(&mut self, studies: &Studies) {
-        self.studies = TOPICS
-            .iter()
-            .map(|&topic| {
+        self.studies = Topic::ALL
+            .into_iter()
+            .map(|topic| {
                 let progress = studies.progress(topic);
                 let finished = progress.stage == Stage::Finished;
                 let current = studies.shown(topic).is_some_and(|shown| shown.current);
@@ -200,7 +267,7 @@ impl Shared {
                     "done": progress.done, "total": progress.total, "finished": finished,
                     "revision": progress.revision, "current": current,
                 });
-                (name(topic).to_owned(), state)
+                (topic.name().to_owned(), state)
             })
             .collect();
         // Not while answers come in: they would be written in every frame.
@@ -220,20 +287,8 @@ impl Shared {
 }
 
 fn write(element: &str, text: &str) {
-    let document = web_sys::window().and_then(|window| window.document());
-    if let Some(element) = document.and_then(|document| document.get_element_by_id(element)) {
+    if let Some(element) = document().and_then(|document| document.get_element_by_id(element)) {
         element.set_text_content(Some(text));
-    }
-}
-
-fn name(topic: Topic) -> &'static str {
-    match topic {
-        Topic::Line => "line",
-        Topic::Map => "map",
-        Topic::Polar => "polar",
-        Topic::Campbell => "campbell",
-        Topic::Convergence => "convergence",
-        Topic::Modes => "modes",
     }
 }
 
@@ -255,13 +310,13 @@ fn rows(known: &Known) -> Vec<Value> {
             }
             Answer::Growth(Ok(rate)) => Some(json!([at.x, at.y, rate, StatusReport::Found])),
             Answer::Growth(Err(reason)) => Some(json!([at.x, at.y, null, StatusReport::from(reason.status())])),
-            Answer::Spectrum(_) | Answer::Modes(_) => None,
+            _ => None,
         }
     };
     known.places.iter().enumerate().filter_map(row).collect()
 }
 
-/// The object with `scenario()`, `load(json)`, `analysis()`, `studies()` and `timings()`.
+/// The object with `scenario()`, `load(json)`, `analysis()`, `layout()`, `studies()` and `timings()`.
 fn interface(shared: &Rc<RefCell<Shared>>, context: &egui::Context) -> Object {
     let object = Object::new();
     let set = |name: &str, function: JsValue| {
@@ -285,6 +340,9 @@ fn interface(shared: &Rc<RefCell<Shared>>, context: &egui::Context) -> Object {
         JsValue::from(timings)
     };
     set("timings", Closure::<dyn Fn() -> JsValue>::new(timings).into_js_value());
+    let screen = context.clone();
+    let layout = move || parsed(&tree::layout(&screen).to_string());
+    set("layout", Closure::<dyn Fn() -> JsValue>::new(layout).into_js_value());
     let (state, repaint) = (shared.clone(), context.clone());
     let studies = move || {
         let mut state = state.borrow_mut();
@@ -320,4 +378,21 @@ fn interface(shared: &Rc<RefCell<Shared>>, context: &egui::Context) -> Object {
 
 fn parsed(json: &str) -> JsValue {
     JSON::parse(json).unwrap_or(JsValue::NULL)
+}
+
+fn document() -> Option<web_sys::Document> {
+    web_sys::window()?.document()
+}
+
+/// Writes these lines into a list.
+fn list(element: &str, lines: &[String]) {
+    let Some(document) = document() else { return };
+    let Some(list) = document.get_element_by_id(element) else { return };
+    list.set_text_content(None);
+    for line in lines {
+        if let Ok(item) = document.create_element("li") {
+            item.set_text_content(Some(line));
+            let _ = list.append_child(&item);
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use crate::app::answers::Answers;
 use crate::app::certainty::Certainty;
-use crate::app::state::UiState;
+use crate::app::state::{Plot, UiState};
 use crate::app::studies::{self, Known, Order, Studies};
 use crate::compute::Compute;
 use crate::compute::protocol::{
@@ -135,13 +135,14 @@ impl Pinned {
         self.studies.shown(topic).filter(|shown| shown.current).map(|shown| shown.known)
     }
 
-    /// Asks for the studies of the plot on show, while `idle`: the present design comes first.
-    pub fn want(&mut self, idle: bool, state: &UiState, plot: Option<crate::app::state::Plot>) -> Vec<Order> {
+    /// Asks for the studies of the plots on show, while `idle`: the present design comes first.
+    pub fn want(&mut self, idle: bool, state: &UiState, plots: &[Plot]) -> Vec<Order> {
         let critical = self.critical().map(|critical| critical.speed);
         let idle = idle && self.is_complete();
-        let mut wishes = studies::wanted(&self.scenario, state, plot.filter(|_| idle), critical, idle);
-        // The map shows one design.
-        wishes.retain(|wish| wish.topic() != Topic::Map);
+        let plots = if idle { plots } else { &[] };
+        let mut wishes = studies::wanted(&self.scenario, state, plots, critical, idle);
+        // The map and the border of the feasible region show one design.
+        wishes.retain(|wish| !matches!(wish.topic(), Topic::Map | Topic::Border));
         self.studies.want(wishes)
     }
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::app::digits;
 
 /// What people choose once.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
     /// Light, dark, or as the system.
@@ -18,6 +18,26 @@ pub struct Settings {
     pub stress: StressUnit,
     /// Whether nothing moves by itself.
     pub motion: MotionChoice,
+    /// The size of all texts in percent, see [`TEXT_SIZES`].
+    pub text_percent: u16,
+    /// Whether keys without Ctrl or Alt do something wherever the focus is. Those who dictate switch it off.
+    pub single_keys: bool,
+}
+
+/// How large texts can be made, in percent.
+pub const TEXT_SIZES: std::ops::RangeInclusive<u16> = 80..=200;
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            theme: ThemeChoice::default(),
+            frequency: FrequencyUnit::default(),
+            stress: StressUnit::default(),
+            motion: MotionChoice::default(),
+            text_percent: 100,
+            single_keys: true,
+        }
+    }
 }
 
 impl Settings {

@@ -32,6 +32,8 @@ pub fn all(context: &Context) -> Vec<(String, &'static str)> {
         ("Space", "Play or pause the mode shape"),
         (". and ,", "One step of the mode shape forward or back"),
         ("M", "Map on or off"),
+        ("F", "Presentation on or off"),
+        ("F6, Shift+F6", "From region to region"),
         ("?", "This list"),
         ("Esc", "Take back what is typed; close a list, a menu, a window, the tour, one at a time"),
     ];

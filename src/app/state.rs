@@ -5,6 +5,8 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use crate::app::settings::Settings;
+use crate::app::tour::Tour;
+use crate::app::words::Word;
 use crate::compute::protocol::{ModeChoice, Which};
 use crate::scenario::{Parameter, Scenario};
 
@@ -24,7 +26,7 @@ impl Document {
     }
 }
 
-/// The plots, one at a time.
+/// The plots.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Plot {
     /// Eigenvalues in the complex plane.
@@ -46,6 +48,70 @@ pub enum Plot {
     Knobs,
 }
 
+/// What a plot is about: the tabs are grouped by this.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlotGroup {
+    /// The present pose.
+    Pose,
+    /// More than one pose or direction.
+    Workspace,
+    /// The robot and its model.
+    Model,
+}
+
+impl PlotGroup {
+    /// All groups with their names and plots.
+    pub const ALL: [(Self, &'static str, &'static [Plot]); 3] = [
+        (Self::Pose, "This pose", &[Plot::Eigenvalues, Plot::Modes, Plot::Growth]),
+        (Self::Workspace, "Workspace", &[Plot::Line, Plot::Directions]),
+        (Self::Model, "Model", &[Plot::Campbell, Plot::Knobs, Plot::Mesh]),
+    ];
+}
+
+impl Plot {
+    /// What the plot is about.
+    pub fn group(self) -> PlotGroup {
+        match self {
+            Self::Eigenvalues | Self::Modes | Self::Growth => PlotGroup::Pose,
+            Self::Line | Self::Directions => PlotGroup::Workspace,
+            Self::Campbell | Self::Knobs | Self::Mesh => PlotGroup::Model,
+        }
+    }
+
+    /// What its tab says.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Eigenvalues => "Eigenvalues",
+            Self::Modes => "Modes",
+            Self::Growth => "Growth",
+            Self::Line => "Along the line",
+            Self::Directions => "Directions",
+            Self::Campbell => "Speed diagram",
+            Self::Knobs => "What to change",
+            Self::Mesh => "Mesh error",
+        }
+    }
+
+    /// Its name in a link.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Eigenvalues => "eigenvalues",
+            Self::Modes => "modes",
+            Self::Growth => "growth",
+            Self::Line => "line",
+            Self::Directions => "directions",
+            Self::Campbell => "speed",
+            Self::Knobs => "change",
+            Self::Mesh => "mesh",
+        }
+    }
+
+    /// All that can be opened.
+    pub fn all() -> impl Iterator<Item = Self> {
+        PlotGroup::ALL.into_iter().flat_map(|(_, _, plots)| plots.iter().copied())
+    }
+}
+
 /// What the map under the robot shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MapQuantity {
@@ -58,8 +124,10 @@ pub enum MapQuantity {
     Kind,
     /// The responsible cable.
     Cable,
-    /// The largest growth rate at today's speed.
+    /// The largest growth rate at the present speed.
     Growth,
+    /// The wave limit.
+    Waves,
 }
 
 /// The map under the robot.
@@ -73,28 +141,95 @@ pub struct MapView {
     pub worst: bool,
 }
 
-/// What a narrow screen shows below the canvas.
+/// What a phone shows below the answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Page {
-    /// Controls.
+pub enum Sheet {
+    /// The motion.
     #[default]
-    Controls,
+    Move,
+    /// All other numbers of the robot.
+    Robot,
     /// Plots.
     Plots,
+    /// What it all means.
+    Explain,
+}
+
+impl Sheet {
+    /// All with their names.
+    pub const ALL: [(Self, &'static str); 4] =
+        [(Self::Move, "Move"), (Self::Robot, "Robot"), (Self::Plots, "Plots"), (Self::Explain, "Explain")];
+}
+
+/// Which panels are open, and how large a person has made them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+#[expect(clippy::struct_excessive_bools)] // One for each panel.
+pub struct Panels {
+    /// The controls on the left.
+    pub left: bool,
+    /// The same where there is too little room for a column of plots.
+    pub left_where_narrow: bool,
+    /// The plots on the right.
+    pub right: bool,
+    /// The plots under the robot.
+    pub dock: bool,
+    /// The widths of the panels on the left and on the right, in points; 0 where nobody has set them.
+    pub widths: [f32; 2],
+    /// The height of the dock, in points; 0 where nobody has set it.
+    pub dock_height: f32,
+}
+
+impl Default for Panels {
+    fn default() -> Self {
+        Self { left: true, left_where_narrow: false, right: true, dock: true, widths: [0.0; 2], dock_height: 0.0 }
+    }
+}
+
+/// The groups of controls, each open or folded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+#[expect(clippy::struct_excessive_bools)] // One for each group; they know nothing of each other.
+pub struct Sections {
+    /// Speed, direction, position.
+    pub motion: bool,
+    /// The table of cables.
+    pub cables: bool,
+    /// The cables' material.
+    pub rope: bool,
+    /// Mass and gravity.
+    pub platform: bool,
+    /// Damping.
+    pub damping: bool,
+    /// Stiffness, strain, mesh.
+    pub model: bool,
+}
+
+impl Default for Sections {
+    fn default() -> Self {
+        Self { motion: true, cables: true, rope: false, platform: false, damping: false, model: false }
+    }
 }
 
 /// How the document is looked at, as far as that survives a restart.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default)]
 pub struct UiState {
-    /// The plot that is open.
+    /// The plot on the right; on a phone the only one.
     pub plot: Plot,
-    /// What a narrow screen shows.
-    pub page: Page,
+    /// The second plot on the right, where there is room for two.
+    pub second: Plot,
+    /// The plot under the robot.
+    pub dock: Plot,
+    /// What a phone shows.
+    pub sheet: Sheet,
     /// The mode shape's movement.
     pub playback: Playback,
-    /// The widths of the panels on the left and on the right, in points, as they were set.
-    pub panels: [f32; 2],
+    /// Which panels are open.
+    #[serde(rename = "open_panels")]
+    pub panels: Panels,
+    /// Which groups of controls are open.
+    pub sections: Sections,
     /// Whether the tour has been taken or skipped.
     pub tour_taken: bool,
     /// The map under the robot.
@@ -107,17 +242,30 @@ pub struct UiState {
 
 /// How the document is looked at for the moment: a restart begins anew.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_excessive_bools)] // One switch each; they know nothing of each other.
 pub struct Session {
     /// The mode whose shape is drawn.
     pub mode: ModeChoice,
     /// Whether the mode's frequency sounds as a tone; pages may not sound unasked.
     pub sound: bool,
-    /// The tour's step on show, from 0.
-    pub tour: Option<usize>,
+    /// The tour, while it is on show.
+    pub tour: Option<Tour>,
     /// The control to bring into view.
     pub revealed: Option<Parameter>,
     /// Whether winches can be dragged.
     pub unlocked: bool,
+    /// The cable whose numbers are open in the table, 0-based.
+    pub cable: Option<usize>,
+    /// Whether every cable says its figures.
+    pub labels: bool,
+    /// The plot that has the place of the robot.
+    pub large: Option<Plot>,
+    /// Robot, answer and one plot alone, large.
+    pub present: bool,
+    /// The page is a frame in another page.
+    pub embedded: bool,
+    /// The word whose card is open.
+    pub word: Option<Word>,
     /// The canvas's zoom and pan.
     pub camera: Camera,
     /// Windows over the page.
@@ -127,11 +275,17 @@ pub struct Session {
 impl Default for Session {
     fn default() -> Self {
         Self {
-            mode: ModeChoice { which: Which::Critical, along_x: false },
+            mode: ModeChoice { which: Which::Present, along_x: false },
             sound: false,
             tour: None,
             revealed: None,
             unlocked: false,
+            cable: None,
+            labels: false,
+            large: None,
+            present: false,
+            embedded: false,
+            word: None,
             camera: Camera::default(),
             windows: Windows::default(),
         }
@@ -155,10 +309,13 @@ pub struct Windows {
 impl Default for UiState {
     fn default() -> Self {
         Self {
-            plot: Plot::default(),
-            page: Page::default(),
+            plot: Plot::Eigenvalues,
+            second: Plot::Directions,
+            dock: Plot::Line,
+            sheet: Sheet::default(),
             playback: Playback::default(),
-            panels: [380.0, 340.0],
+            panels: Panels::default(),
+            sections: Sections::default(),
             tour_taken: false,
             map: MapView::default(),
             campbell_hz: 5.0,
@@ -167,12 +324,27 @@ impl Default for UiState {
     }
 }
 
-/// How the mode shape moves.
+/// What moves on the canvas.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Movement {
+    /// What a small disturbance becomes at the present speed: it dies out or grows.
+    #[default]
+    LetGo,
+    /// One mode's shape, which swings for ever.
+    Mode,
+}
+
+/// What moves on the canvas, and how.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Playback {
     /// Whether time runs.
     pub playing: bool,
+    /// What moves.
+    pub movement: Movement,
+    /// Seconds of the robot since it was let go; it begins anew by itself.
+    #[serde(skip)]
+    pub since: f64,
     /// The largest displacement on the screen, as a part of the robot's width.
     pub amplitude: f64,
     /// Seconds of the robot per second of the screen.
@@ -183,7 +355,7 @@ pub struct Playback {
 
 impl Default for Playback {
     fn default() -> Self {
-        Self { playing: true, amplitude: 0.03, slow_motion: 1.0, phase: 0.0 }
+        Self { playing: true, movement: Movement::default(), since: 0.0, amplitude: 0.03, slow_motion: 1.0, phase: 0.0 }
     }
 }
 
@@ -217,5 +389,29 @@ impl Camera {
     /// Zooms by a factor about the middle.
     pub fn magnify(&mut self, factor: f64) {
         self.zoom = (self.zoom * factor).clamp(0.2, 200.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_plot_is_in_its_group() {
+        // A plot that is missing here is named by the compiler.
+        let place = |plot: Plot| match plot {
+            Plot::Eigenvalues => 0,
+            Plot::Modes => 1,
+            Plot::Growth => 2,
+            Plot::Line => 3,
+            Plot::Directions => 4,
+            Plot::Campbell => 5,
+            Plot::Knobs => 6,
+            Plot::Mesh => 7,
+        };
+        assert_eq!(Plot::all().map(place).collect::<Vec<_>>(), (0..8).collect::<Vec<_>>());
+        for (group, _, plots) in PlotGroup::ALL {
+            assert!(plots.iter().all(|plot| plot.group() == group), "{plots:?}");
+        }
     }
 }

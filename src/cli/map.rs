@@ -67,7 +67,7 @@ pub(super) fn run(args: &Args, input: &mut dyn Read) -> CommandResult {
         let (verdict, wave_limit) = match study.answer(&robot, index) {
             Answer::Critical { verdict, wave_limit, .. } => (verdict, wave_limit),
             // Not what this study asks for.
-            Answer::Growth(_) | Answer::Spectrum(_) | Answer::Modes(_) => (Verdict::Unknown, None),
+            _ => (Verdict::Unknown, None),
         };
         Row { swept: Vec::new(), position: grid.position(index), verdict, wave_limit }
     };

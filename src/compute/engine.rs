@@ -17,7 +17,7 @@ use super::protocol::{
     Revision, SearchEnd, Update, Which,
 };
 use super::robot_study::search_limit;
-use crate::mechanics::CableShape;
+use crate::mechanics::{CableShape, Infeasible, StaticsError};
 use crate::robot::{Motion, Robot, Vec2};
 use crate::scenario::report::{StatusReport, sentence};
 use crate::scenario::{Report, Scenario};
@@ -275,7 +275,7 @@ impl Pose {
         let refused = |reason: &str| {
             let status = Some(StatusReport::Failed);
             let report = Report { status, searched_up_to, ..Report::unknown(reason, 0.0) };
-            Box::new(FailedPose { report, cable: None, shapes: Vec::new() })
+            Box::new(FailedPose { report, cable: None, push: None, shapes: Vec::new() })
         };
         let limit = limit.map_err(|reason| refused(&sentence(&reason)))?;
         let parsed = Scenario::from_json(&job.scenario).and_then(|scenario| scenario.to_robot());
@@ -284,6 +284,7 @@ impl Pose {
             Box::new(FailedPose {
                 report: Report::without_pose(&failure, motion.speed(), limit),
                 cable: failure.reason.cable(),
+                push: push(&failure.reason),
                 shapes: failure.cables.iter().map(|shape| shape.as_ref().map(drawn)).collect(),
             })
         })?;
@@ -402,7 +403,7 @@ impl Pose {
             return Some(self.reply(Update::Shape(Box::new(ModeShape::new(&mode, critical.speed, true)))));
         }
         let wanted = match self.choice.which {
-            Which::Critical => self.rightmost?,
+            Which::Critical | Which::Present => self.rightmost?,
             Which::Near([re, im]) => Complex::new(re, im.abs()),
         };
         let distance = |l: &Complex<f64>| (l - wanted).norm_sqr();
@@ -527,6 +528,14 @@ fn check(index: usize) -> Slice {
         comparison: (check.run)().map_err(|reason| sentence(&reason.to_string())),
     });
     answer.map(|answer| Reply { revision: 0, update: Update::Checked(Box::new(answer)) }).into_iter().collect()
+}
+
+/// With how much a cable would have to push, in N, where one would.
+fn push(reason: &StaticsError) -> Option<f64> {
+    match *reason {
+        StaticsError::Infeasible(Infeasible::WouldPush { tension, .. }) if tension < 0.0 => Some(-tension),
+        _ => None,
+    }
 }
 
 fn axial_forces(shape: &CableShape) -> Vec<f64> {

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scenario::Report;
 use crate::stability::{Critical, Mode};
+pub use crate::study::Topic;
 use crate::study::validation::Comparison;
 use crate::study::{Answer, Sensitivity, Study};
 
@@ -52,6 +53,8 @@ pub enum Which {
     Critical,
     /// At the scenario's speed, the one nearest to [Re λ, Im λ].
     Near([f64; 2]),
+    /// At the scenario's speed, the one with the largest growth rate: what a small disturbance becomes.
+    Present,
 }
 
 /// A reply of the engine.
@@ -118,6 +121,9 @@ pub struct FailedPose {
     pub report: Report,
     /// The cable to blame, 0-based.
     pub cable: Option<usize>,
+    /// Where that cable would have to push: with how much, in N, greater than 0. It is what the platform's balance asks of
+    /// the cable's straight line, with the weights and the sag of all prescribed cables.
+    pub push: Option<f64>,
     /// One entry per cable: its shape, where it has one. Empty where there is none at all.
     pub shapes: Vec<Option<DrawnShape>>,
 }
@@ -214,37 +220,6 @@ impl ModeShape {
             is_critical,
             displacement: mode.displacement.iter().map(|cable| cable.iter().map(node).collect()).collect(),
             cable_share: mode.cable_share.clone(),
-        }
-    }
-}
-
-/// What a study is about: of each topic at most one study is at work.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-pub enum Topic {
-    /// Critical speeds along the motion.
-    Line,
-    /// A map over the workspace.
-    Map,
-    /// Critical speeds in every direction.
-    Polar,
-    /// All eigenvalues against speed.
-    Campbell,
-    /// Critical speeds on several meshes.
-    Convergence,
-    /// Eigenvalues joined to modes.
-    Modes,
-}
-
-impl Topic {
-    /// What a study is about.
-    pub fn of(study: &Study) -> Self {
-        match study {
-            Study::Line { .. } => Self::Line,
-            Study::Map { .. } => Self::Map,
-            Study::Polar { .. } => Self::Polar,
-            Study::Speeds { .. } => Self::Campbell,
-            Study::Elements { .. } => Self::Convergence,
-            Study::Modes { .. } => Self::Modes,
         }
     }
 }

@@ -15,6 +15,8 @@ use super::protocol::StudyJob;
 const USUAL_ELEMENTS: f64 = 40.0;
 /// Joining spectra to modes has weight 1 where the cubes of their numbers of eigenvalues add up to this.
 const USUAL_CUBES: f64 = 1e6;
+/// A row of so many points has weight 1 where only statics are asked for.
+const USUAL_COLUMNS: f64 = 20.0;
 /// A coarse map has every 4th point of every 4th row.
 const COARSE: usize = 4;
 /// The most places of a study, and the most directions at one place. The page asks for far fewer, so a message with more is
@@ -66,12 +68,16 @@ impl RobotStudy {
             Study::Elements { counts, .. } => counts.get(place).copied().unwrap_or_default(),
             _ => self.robot.elements,
         };
+        let elements_of_all = (elements * self.robot.cables.len()) as f64 / USUAL_ELEMENTS;
+        // Statics alone, but at the points of two rows; they take a time that grows with the number of elements.
+        if let Study::Border { grid } = &self.study {
+            return elements_of_all * grid.nx as f64 / USUAL_COLUMNS;
+        }
         let directions = match &self.study {
             Study::Map { directions: Directions::Worst(count), .. } => *count as f64,
             _ => 1.0,
         };
-        let size = (elements * self.robot.cables.len()) as f64 / USUAL_ELEMENTS;
-        directions * size * size
+        directions * elements_of_all * elements_of_all
     }
 
     /// The answer at one place, step by step.
@@ -129,6 +135,13 @@ fn check(study: &Study) -> Result<(), String> {
             if !spectra.iter().all(|(speed, values)| speed.is_finite() && values.iter().all(finite)) {
                 return Err("speeds and eigenvalues must be finite".into());
             }
+        }
+        Study::Border { grid } => {
+            if grid.len() > MOST_PLACES {
+                return Err(format!("a border at {} points; allowed: at most {MOST_PLACES}", grid.len()));
+            }
+            motion(grid.low, Vec2::x(), 0.0)?;
+            motion(grid.high, Vec2::x(), 0.0)?;
         }
     }
     Ok(())

@@ -17,6 +17,8 @@
 //!   2 … are 0, 1, 2, 3, 4 …; for k = 7 and z > 0 it is m · 10^e with e in one further byte, signed; in both it is the
 //!   double nearest to this decimal. w = 7: a double follows as it is, 8 bytes, the lowest first.
 //!
+//! What follows the robot's part after an `&` is about the view and no part of this format.
+//!
 //! The shortest form is written, so most numbers that people type take a byte or two: the paper's robot has 81
 //! characters. As deflated JSON it would have 410, as plain doubles 370 or deflated 130, and dragged it would gain more.
 //!
@@ -74,13 +76,15 @@ pub fn encode(scenario: &Scenario) -> String {
 
 /// The scenario in `text`, which is what follows `#s=`.
 ///
-/// Behind it there may be spaces and punctuation, and characters may be percent-encoded: programs that pass links on do
-/// such things, and no link contains any. Time and memory are in proportion to the length of `text`.
+/// Behind it there may be `&` and anything else, which is not about the robot but about how it is looked at. There may
+/// also be spaces and punctuation, and characters may be percent-encoded: programs that pass links on do such things, and
+/// no link contains any. Time and memory are in proportion to the length of `text`.
 ///
 /// # Errors
 /// A link that is damaged or of a newer version; all that is not physical, as for a file.
 pub fn decode(text: &str) -> Result<Scenario, LinkError> {
     let text = percent_encoding::percent_decode_str(text).decode_utf8_lossy();
+    let text = text.split('&').next().unwrap_or_default();
     let text = text.trim_start().trim_end_matches(|c: char| !(c.is_ascii_alphanumeric() || c == '-' || c == '_'));
     let bytes = match text.strip_prefix(VERSION) {
         Some(rest) => BASE64_URL_SAFE_NO_PAD.decode(rest).map_err(|_| LinkError::Damaged)?,

@@ -22,6 +22,7 @@
 //! # Ok::<(), tautline::robot::Faults>(())
 //! ```
 
+mod border;
 pub mod campbell;
 pub mod convergence;
 mod grid;
@@ -32,8 +33,9 @@ pub mod validation;
 mod verdict;
 
 pub use crate::mechanics::Knob;
+pub use border::Strip;
 pub use grid::{Grid, Line, evenly, workspace};
 pub use local::LocalProblem;
 pub use sensitivity::{Sensitivity, sensitivities, sensitivities_in_steps};
-pub use studies::{Answer, Mapped, Study};
+pub use studies::{Answer, Mapped, Study, Topic};
 pub use verdict::{Directions, NoEigenvalues, Status, Verdict, compass, verdict};

@@ -8,7 +8,7 @@ use crate::stability::steps::finish;
 use crate::study::campbell::{self, Track};
 use crate::study::grid::coarse_first_in_a_row;
 use crate::study::verdict::verdict_in_steps;
-use crate::study::{Directions, Grid, Line, LocalProblem, NoEigenvalues, Verdict, compass, evenly};
+use crate::study::{Directions, Grid, Line, LocalProblem, NoEigenvalues, Strip, Verdict, compass, evenly};
 
 /// What a map shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +85,50 @@ pub enum Study {
         /// Speeds (m/s) in rising order, each with its eigenvalues (1/s).
         spectra: Vec<(f64, Vec<Complex<f64>>)>,
     },
+    /// The border of the feasible region, row by row. Poses, directions and speeds other than the grid's do not matter.
+    Border {
+        /// Where.
+        grid: Grid,
+    },
+}
+
+/// What a study is about: of each topic at most one study is at work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
+pub enum Topic {
+    /// Critical speeds along the motion.
+    Line,
+    /// A map over the workspace.
+    Map,
+    /// Critical speeds in every direction.
+    Polar,
+    /// All eigenvalues against speed.
+    Campbell,
+    /// Critical speeds on several meshes.
+    Convergence,
+    /// Eigenvalues joined to modes.
+    Modes,
+    /// The border of the feasible region.
+    Border,
+}
+
+impl Topic {
+    /// All of them.
+    pub const ALL: [Self; 7] =
+        [Self::Line, Self::Map, Self::Polar, Self::Campbell, Self::Convergence, Self::Modes, Self::Border];
+
+    /// Its name for programs.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Line => "line",
+            Self::Map => "map",
+            Self::Polar => "polar",
+            Self::Campbell => "campbell",
+            Self::Convergence => "convergence",
+            Self::Modes => "modes",
+            Self::Border => "border",
+        }
+    }
 }
 
 /// What a study has found at one of its places.
@@ -107,9 +151,24 @@ pub enum Answer {
     Spectrum(Result<Vec<Complex<f64>>, NoEigenvalues>),
     /// The modes, or why they are not known.
     Modes(Result<Vec<Track>, NoEigenvalues>),
+    /// The feasible region from one row of a grid to the next.
+    Border(Strip),
 }
 
 impl Study {
+    /// What it is about.
+    pub fn topic(&self) -> Topic {
+        match self {
+            Self::Line { .. } => Topic::Line,
+            Self::Map { .. } => Topic::Map,
+            Self::Polar { .. } => Topic::Polar,
+            Self::Speeds { .. } => Topic::Campbell,
+            Self::Elements { .. } => Topic::Convergence,
+            Self::Modes { .. } => Topic::Modes,
+            Self::Border { .. } => Topic::Border,
+        }
+    }
+
     /// How many places there are.
     pub fn len(&self) -> usize {
         match self {
@@ -118,6 +177,7 @@ impl Study {
             Self::Polar { count, .. } | Self::Speeds { count, .. } => *count,
             Self::Elements { counts, .. } => counts.len(),
             Self::Modes { .. } => 1,
+            Self::Border { grid } => grid.ny,
         }
     }
 
@@ -136,9 +196,7 @@ impl Study {
                 order.sort_by_key(|&index| counts[index]);
                 order
             }
-            Self::Line { .. } | Self::Polar { .. } | Self::Speeds { .. } | Self::Modes { .. } => {
-                coarse_first_in_a_row(self.len())
-            }
+            _ => coarse_first_in_a_row(self.len()),
         }
     }
 
@@ -173,6 +231,7 @@ impl Study {
                 }
             }
             Self::Modes { spectra } => Answer::Modes(Ok(campbell::track_in_steps(spectra).await)),
+            Self::Border { grid } => Answer::Border(Strip::new(robot, grid, index).await),
         }
     }
 
@@ -188,6 +247,7 @@ impl Study {
             Self::Polar { count, .. } => unknown(compass(index, *count)),
             Self::Speeds { .. } => Answer::Spectrum(Err(NoEigenvalues::Failed)),
             Self::Modes { .. } => Answer::Modes(Err(NoEigenvalues::Failed)),
+            Self::Border { grid } => Answer::Border(Strip::unknown(grid.nx)),
         }
     }
 }
@@ -215,4 +275,28 @@ async fn spectrum(
     let local = LocalProblem::new(robot, &motion).map_err(|failure| NoEigenvalues::from(&failure))?;
     let spectrum = local.spectrum_in_steps(speed).await.map_err(|_| NoEigenvalues::Failed)?;
     Ok(spectrum.modes().map(|mode| mode.eigenvalue).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// The compiler asks for a new topic here, and the list that lacks it fails.
+    #[test]
+    fn every_topic_is_in_the_list() {
+        let after = |topic: Topic| match topic {
+            Topic::Line => Some(Topic::Map),
+            Topic::Map => Some(Topic::Polar),
+            Topic::Polar => Some(Topic::Campbell),
+            Topic::Campbell => Some(Topic::Convergence),
+            Topic::Convergence => Some(Topic::Modes),
+            Topic::Modes => Some(Topic::Border),
+            Topic::Border => None,
+        };
+        let all: Vec<Topic> = std::iter::successors(Some(Topic::Line), |topic| after(*topic)).collect();
+        assert_eq!(all, Topic::ALL);
+        let names: BTreeSet<&str> = all.iter().map(|topic| topic.name()).collect();
+        assert_eq!(names.len(), all.len(), "two topics have one name");
+    }
 }

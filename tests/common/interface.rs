@@ -4,7 +4,7 @@
 
 use std::time::{Duration, Instant};
 
-use eframe::egui::accesskit::Role;
+use eframe::egui::accesskit::{Role, Toggled};
 use eframe::egui::{Key, Modifiers, Pos2, Theme, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use egui_kittest::{Harness, Node};
@@ -31,6 +31,18 @@ pub fn app_started(start: Start) -> Harness<'static, Tautline> {
 
 pub fn app_sized(start: Start, size: Vec2) -> Harness<'static, Tautline> {
     build(start, size, Theme::Dark)
+}
+
+/// An application whose textures are kept, so that pictures can be taken of it.
+pub fn app_in_pictures(
+    scenario: Scenario,
+    size: Vec2,
+    theme: Theme,
+    renderer: impl egui_kittest::TestRenderer + 'static,
+) -> Harness<'static, Tautline> {
+    let start = Start { scenario: Some(scenario), ..Start::default() };
+    let builder = Harness::builder().with_size(size).with_theme(theme).with_step_dt(1.0 / 60.0).renderer(renderer);
+    builder.build_eframe(|context| Tautline::new(context, start))
 }
 
 fn build(start: Start, size: Vec2, theme: Theme) -> Harness<'static, Tautline> {
@@ -134,6 +146,7 @@ pub fn drag(app: &mut Harness<'static, Tautline>, from: Pos2, to: Pos2) {
 }
 
 pub fn type_value(app: &mut Harness<'static, Tautline>, label: &str, text: &str) {
+    reach(app, Role::SpinButton, label);
     app.get_by_role_and_label(Role::SpinButton, label).click();
     app.run_steps(2);
     let select_all = Modifiers::COMMAND;
@@ -143,4 +156,39 @@ pub fn type_value(app: &mut Harness<'static, Tautline>, label: &str, text: &str)
     app.step();
     app.key_press(Key::Enter);
     settle(app);
+}
+
+/// Scrolls until this is in sight.
+pub fn reach(app: &mut Harness<'static, Tautline>, role: Role, label: &str) {
+    app.get_by_role_and_label(role, label).scroll_to_me();
+    app.run_steps(20);
+}
+
+/// Opens all groups of controls.
+pub fn open_groups(app: &mut Harness<'static, Tautline>) {
+    for group in ["Motion", "Cables", "Rope", "Mass and gravity", "Damping", "Model"] {
+        let open = |app: &Harness<'static, Tautline>| {
+            app.get_by_role_and_label(Role::Button, group).accesskit_node().toggled() == Some(Toggled::True)
+        };
+        if !open(app) {
+            reach(app, Role::Button, group);
+            app.get_by_role_and_label(Role::Button, group).click();
+            app.run_steps(3);
+            assert!(open(app), "{group}");
+        }
+    }
+}
+
+/// Opens a plot in the column on the right; the dock has some of the same tabs.
+pub fn open_plot(app: &mut Harness<'static, Tautline>, title: &str) {
+    let group = match title {
+        "Eigenvalues" | "Modes" | "Growth" => "This pose",
+        "Along the line" | "Directions" => "Workspace",
+        _ => "Model",
+    };
+    app.get_by_role_and_label(Role::RadioButton, group).click();
+    app.run_steps(3);
+    let tabs = app.get_all_by_role_and_label(Role::Tab, title);
+    tabs.max_by(|a, b| a.rect().min.x.total_cmp(&b.rect().min.x)).expect("a tab").click();
+    app.run_steps(3);
 }

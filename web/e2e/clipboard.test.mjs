@@ -1,17 +1,14 @@
 // Sharing where the browser does not let the page write to the clipboard, and pages in a frame.
 import assert from "node:assert/strict";
-import { createServer } from "node:http";
-import { browserTest, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
+import { browserTest, choose, clickCanvas, framed, screenshot, started } from "./harness.mjs";
 
-const SHARE = [186, 12];
+/** Copies a link to the robot. */
+const share = (page) => choose(page, "Share", "Copy link");
+/** An app in a frame below a field that has the focus. */
+const FRAME = { before: "<input autofocus>", width: 1240, height: 740 };
 /** In the window that says why. */
 const copying = (page) => page.locator("#tautline-copy");
 const notice = (page) => page.locator("#tautline-notice").textContent();
-
-async function started(page) {
-    await waitForStart(page);
-    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
-}
 
 /** The link is shown and selected, it is said why, and nobody says that it is on the clipboard. Gives the link. */
 async function offered(page, why) {
@@ -33,38 +30,11 @@ async function decide(page, name, setting) {
     await session.send("Browser.setPermission", { permission: { name }, setting, origin: new URL(page.url()).origin, browserContextId });
 }
 
-/** A page on a server of its own, which shows the app in a frame below a field that has the focus. */
-async function host(address, attributes) {
-    const html = `<!doctype html><title>Host</title><input autofocus>
-        <iframe src="${address}" ${attributes} style="display: block; width: 1240px; height: 740px"></iframe>`;
-    const server = createServer((request, response) => response.writeHead(200, { "content-type": "text/html" }).end(html));
-    await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
-    const close = () => new Promise((resolve) => {
-        server.close(resolve);
-        server.closeAllConnections();
-    });
-    return { address: `http://localhost:${server.address().port}/`, close };
-}
-
-/** Opens such a page; gives it and the frame in it. */
-async function framed(open, origin, attributes) {
-    const { address, close } = await host(origin, attributes);
-    const page = await open(address);
-    const frame = page.frames().find((frame) => frame.url().startsWith(origin));
-    await started(frame);
-    return { page, frame, close };
-}
-
-const toFrame = async (page, [x, y]) => {
-    const box = await page.locator("iframe").boundingBox();
-    return [box.x + x, box.y + y];
-};
-
 browserTest("over plain http, where browsers have no clipboard, the link is shown to be copied by hand", async ({ open, origin }) => {
     const page = await open(origin.replace("127.0.0.1", "tautline.test"));
     await started(page);
     assert.equal(await page.evaluate(() => [isSecureContext, typeof navigator.clipboard].join()), "false,undefined");
-    await page.mouse.click(...SHARE);
+    await share(page);
     const link = await offered(page, /https/);
     await screenshot(page, "copy by hand");
     const other = await open("", { hash: new URL(link).hash });
@@ -74,7 +44,7 @@ browserTest("over plain http, where browsers have no clipboard, the link is show
     for (const leave of [() => page.keyboard.press("Escape"), () => page.locator("#tautline-copy-close").click()]) {
         await leave();
         await copying(page).waitFor({ state: "hidden" });
-        await page.mouse.click(...SHARE);
+        await share(page);
         await offered(page, /https/);
     }
 }, { timeout: 120_000 });
@@ -83,29 +53,29 @@ browserTest("where the user has forbidden the clipboard, that is told, and the w
     const page = await open("", { colorScheme: "dark" });
     await started(page);
     await decide(page, "clipboard-write", "denied");
-    await page.mouse.click(...SHARE);
+    await share(page);
     await offered(page, /does not allow it here \(Write permission denied\)/);
     await screenshot(page, "copy by hand dark");
     // Allowed after all, it is told once it is true.
     await page.keyboard.press("Escape");
     await decide(page, "clipboard-write", "granted");
-    await page.mouse.click(...SHARE);
+    await share(page);
     await page.waitForFunction(() => document.getElementById("tautline-notice").textContent.includes("The link is on the clipboard"));
     assert.equal(await copying(page).isVisible(), false);
 }, { timeout: 120_000 });
 
 browserTest("in a frame of another origin the link can be copied by hand", async ({ open, origin }) => {
-    const { page, frame, close } = await framed(open, origin, "");
+    const { page, frame, close } = await framed(open, origin, FRAME);
     try {
         await decide(page, "clipboard-read", "granted");
-        await page.mouse.click(...await toFrame(page, SHARE));
+        await share(frame);
         const link = await offered(frame, /policy|allow/i);
         await page.keyboard.press("Control+c");
         await page.locator("input").click();
         assert.equal(await page.evaluate(() => navigator.clipboard.readText()), link);
         // A page that allows it gets the link at once.
-        const allowed = await framed(open, origin, 'allow="clipboard-write"');
-        await allowed.page.mouse.click(...await toFrame(allowed.page, SHARE));
+        const allowed = await framed(open, origin, { ...FRAME, attributes: 'allow="clipboard-write"' });
+        await share(allowed.frame);
         await allowed.frame.waitForFunction(() => document.getElementById("tautline-notice").textContent.includes("The link is on the clipboard"));
         await allowed.close();
     } finally {
@@ -115,15 +85,15 @@ browserTest("in a frame of another origin the link can be copied by hand", async
 
 browserTest("in a frame the page leaves the focus where it is until it is clicked", async ({ open, origin }) => {
     for (const address of [origin, origin.replace("127.0.0.1", "localhost")]) {
-        const { page, frame, close } = await framed(open, address, "");
+        const { page, frame, close } = await framed(open, address, FRAME);
         try {
             assert.equal(await page.evaluate(() => document.activeElement.tagName), "INPUT", address);
             await page.keyboard.type("typed elsewhere");
             assert.equal(await page.locator("input").inputValue(), "typed elsewhere");
             await frame.evaluate(() => window.tautline.load({ ...window.tautline.scenario(), gravity: 1.62 }));
             await frame.waitForFunction(() => window.tautline.scenario().gravity === 1.62);
-            // The background of the canvas, well beside the robot.
-            await page.mouse.click(...await toFrame(page, [640, 690]));
+            // The background of the canvas, well beside the platform.
+            await clickCanvas(frame);
             await page.keyboard.press("Control+z");
             await frame.waitForFunction(() => window.tautline.scenario().gravity === 9.81);
         } finally {

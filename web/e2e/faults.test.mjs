@@ -1,21 +1,11 @@
 // What goes wrong outside the program (workers, graphics, storage) or in it: the page says so and nothing is lost.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { browserTest, MAP, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
-
-/** Where the platform is at first, in a window of 1280 × 800. */
-const PLATFORM = [654, 412];
-const HELP = [130, 12];
-const THEORY = [148, 86];
+import { browserTest, PLATFORM, pointAt, press, screenshot, started, waitForAnalysis, waitForStart } from "./harness.mjs";
 
 const scenario = (page) => page.evaluate(() => window.tautline.scenario());
 const notice = (page) => page.locator("#tautline-notice").textContent();
 const alert = (page) => page.locator("#tautline-error");
-
-async function started(page) {
-    await waitForStart(page);
-    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 60_000 });
-}
 
 /** Loads the scenario on show with another gravity, and returns it. */
 async function change(page, gravity) {
@@ -110,9 +100,10 @@ for (const colorScheme of ["light", "dark"]) {
         await waitForAnalysis(page, (analysis) => analysis.current);
         // The drawing library panics where the graphics card has no room left.
         await page.evaluate(() => { WebGL2RenderingContext.prototype.createTexture = () => null; });
-        await page.mouse.click(...HELP);
-        await page.waitForTimeout(300);
-        await page.mouse.click(...THEORY);
+        await press(page, "More", "button");
+        // Nothing answers after that.
+        const { mouse, at } = await pointAt(page, "Theory");
+        await mouse.click(...at);
         await alert(page).waitFor({ state: "visible" });
         assert.match(await alert(page).innerText(), /has stopped[^]*not lost/);
         await screenshot(page, `stopped ${colorScheme}`);
@@ -131,8 +122,7 @@ for (const colorScheme of ["light", "dark"]) {
 browserTest("the robot is safe in the middle of a drag", async ({ open }) => {
     const page = await open();
     await started(page);
-    const [x, y] = PLATFORM;
-    await page.mouse.move(x, y);
+    const { at: [x, y] } = await pointAt(page, ...PLATFORM);
     await page.mouse.down();
     for (let i = 1; i <= 10; i++) await page.mouse.move(x + 6 * i, y - 3 * i);
     await page.waitForFunction(() => window.tautline.scenario().motion.position[0] > 2);
@@ -203,6 +193,6 @@ browserTest("a map goes on when the worker of the pointer is lost", async ({ ope
     const page = await open();
     await started(page);
     await page.workers()[0].evaluate(() => self.close()).catch(() => {});
-    await page.mouse.click(...MAP);
+    await press(page, "Map", "button");
     await page.waitForFunction(() => window.tautline.studies().map.finished, undefined, { timeout: 60_000, polling: 200 });
 }, { timeout: 120_000 });

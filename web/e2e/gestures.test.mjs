@@ -1,16 +1,15 @@
 // Hands in a browser: drags whose end comes in one frame with the release.
 import assert from "node:assert/strict";
-import { browserTest, waitForAnalysis, waitForStart } from "./harness.mjs";
+import { browserTest, centre, find, pixelsPerMetre, PLATFORM, pointAt, started, waitForAnalysis } from "./harness.mjs";
 
 const motion = (page) => page.evaluate(() => window.tautline.scenario().motion);
 
 browserTest("the end of a drag counts that comes in one frame with the release", async ({ open }) => {
     const page = await open();
-    await waitForStart(page);
-    await waitForAnalysis(page);
-    // The platform is in the middle of the canvas, from 380 to 940; its robot is 20 m wide with 44 points beside it.
-    const [from, by, scale] = [[660, 412.5], 120, (940 - 380 - 88) / 20];
-    await page.mouse.move(...from);
+    await started(page);
+    const scale = await pixelsPerMetre(page);
+    const by = 4 * scale;
+    const { at: from } = await pointAt(page, ...PLATFORM);
     await page.mouse.down();
     await page.mouse.move(from[0] + 20, from[1]);
     await page.waitForTimeout(300);
@@ -29,8 +28,7 @@ browserTest("the end of a drag counts that comes in one frame with the release",
 
 browserTest("a finger scrolls up and down, turns sideways and edits by a tap, from the first touch on", async ({ open }) => {
     const page = await open("", { viewport: { width: 360, height: 740 }, hasTouch: true });
-    await waitForStart(page);
-    await waitForAnalysis(page);
+    await started(page);
     const hand = await page.context().newCDPSession(page);
     const touch = (type, touchPoints) => hand.send("Input.dispatchTouchEvent", { type, touchPoints });
     const swipe = async ([x, y], [right, down]) => {
@@ -45,21 +43,28 @@ browserTest("a finger scrolls up and down, turns sideways and edits by a tap, fr
         await page.waitForTimeout(250);
     };
     const scenario = () => page.evaluate(() => window.tautline.scenario());
-    // The first touch of all, on words, scrolls up by 30: a tap then finds the speed's value that much higher.
-    await swipe([60, 690], [0, -30]);
-    await swipe([275, 590 - 30], [0, 0]);
+    const at = async (label, role) => centre(await find(page, label, role));
+
+    // The first touch of all, on words, scrolls.
+    const [, high] = await at("Position x", "slider");
+    await swipe(await at("Direction θ", "text"), [0, -40]);
+    const [, higher] = await at("Position x", "slider");
+    assert.ok(high - higher > 20, `a swipe up by 40 has moved the row from ${high} to ${higher}`);
+    await swipe(await at("Position x", "slider"), [0, 40]);
+
+    await swipe(await at("Speed v", "spinbutton"), [0, 0]);
     await page.keyboard.press("ControlOrMeta+A");
     await page.keyboard.type("7");
     await page.keyboard.press("Enter");
     await page.waitForFunction(() => window.tautline.scenario().motion.speed === 7);
-    // The direction's slider and value.
+
     const before = await scenario();
-    for (const from of [[185, 614 - 30], [275, 614 - 30]]) {
-        await swipe(from, [0, 30]);
-        assert.deepEqual(await scenario(), before, `a swipe down from ${from}`);
-        await swipe(from, [0, -30]);
-        assert.deepEqual(await scenario(), before, `a swipe up from ${from}`);
+    for (const role of ["slider", "spinbutton"]) {
+        await swipe(await at("Direction θ", role), [0, 30]);
+        assert.deepEqual(await scenario(), before, `a swipe down on the direction's ${role}`);
+        await swipe(await at("Direction θ", role), [0, -30]);
+        assert.deepEqual(await scenario(), before, `a swipe up on the direction's ${role}`);
     }
-    await swipe([160, 590 - 30], [40, 2]);
-    await page.waitForFunction(() => window.tautline.scenario().motion.speed > 12);
+    await swipe(await at("Speed v", "slider"), [60, 2]);
+    await page.waitForFunction(() => window.tautline.scenario().motion.speed > 7);
 });

@@ -3,8 +3,13 @@
 //
 //   browserTest("what it shows", async ({ open }) => {
 //       const page = await open("", { viewport: { width: 360, height: 640 }, colorScheme: "dark" });
+//       await started(page);
+//       await press(page, "Map", "button");
+//       await type(page, "Speed v", "7");
 //       …
 //   });
+//
+// Things are found by the names and roles that window.tautline.layout() gives, never by pixel places.
 //
 // CHROMIUM names the browser's program, if it is not one of those below on PATH.
 import assert from "node:assert/strict";
@@ -42,8 +47,20 @@ const TYPES = {
     ".webmanifest": "application/manifest+json",
 };
 
-/** The map's switch in a window of 1280 × 800; the tests of maps fail where it is not there. */
-export const MAP = [912, 41];
+/** The groups of plots with the titles in them; a plot's tab is there once its group is chosen. */
+export const PLOTS = {
+    "This pose": ["Eigenvalues", "Modes", "Growth"],
+    "Workspace": ["Along the line", "Directions"],
+    "Model": ["Speed diagram", "What to change", "Mesh error"],
+};
+
+/** The group of controls that a field is in, where it is not one that is open at first. */
+const SECTIONS = {
+    "Young's modulus E": "Rope",
+    "Cross-section A": "Rope",
+    "Platform mass m": "Mass and gravity",
+    "Gravity g": "Mass and gravity",
+};
 
 const FLAGS = [
     "--no-sandbox",
@@ -211,6 +228,239 @@ export async function waitForAnalysis(page, predicate = (analysis) => analysis.c
             throw new Error(`no such analysis within ${timeout} ms; the last one: ${JSON.stringify(analysis)?.slice(0, 500)}`);
         }
         await sleep(20);
+    }
+}
+
+/** Waits until the app runs and its first answer is there. */
+export async function started(page, { timeout = 60_000 } = {}) {
+    await waitForStart(page);
+    return waitForAnalysis(page, (analysis) => analysis.current, { timeout });
+}
+
+/** What is on the screen: { label, role, rect: [x, y, width, height], value?, enabled?, whole? } of each named thing. */
+export const layout = (page) => page.evaluate(() => window.tautline.layout());
+
+/** Roles of things that hold others or only stand there. Who asks for a name alone does not mean these. */
+const QUIET = new Set(["text", "region", "dialog", "img", "figure", "row", "table", "group", "tablist", "tooltip"]);
+
+export const centre = ({ rect: [x, y, width, height] }) => [x + width / 2, y + height / 2];
+export const inside = ([x, y], { rect: [left, top, width, height] }) =>
+    x >= left && x <= left + width && y >= top && y <= top + height;
+
+const fits = (text, wanted) => (wanted instanceof RegExp ? wanted.test(text) : text === wanted);
+
+/** Those of `items` with this label and role (texts or regular expressions), in the region of this name. */
+export function matching(items, label, role, within) {
+    const regions = within === undefined ? [] : items.filter((it) => it.role === "region" && fits(it.label, within));
+    const found = items.filter((it) => fits(it.label, label) && (role === undefined || fits(it.role, role))
+        && (within === undefined || regions.some((region) => inside(centre(it), region))));
+    const loud = found.filter((it) => !QUIET.has(it.role));
+    return role === undefined && loud.length > 0 ? loud : found;
+}
+
+/** All that is there, by roles, for messages. */
+function inventory(items) {
+    const byRole = new Map();
+    for (const { role, label } of items.filter(({ role }) => role !== "text")) {
+        byRole.set(role, [...(byRole.get(role) ?? []), label]);
+    }
+    return [...byRole].map(([role, labels]) => `    ${role}: ${labels.join(" | ")}`).join("\n");
+}
+
+const called = (label, role, within) => `${role ?? "thing"} called ${label instanceof RegExp ? label : `"${label}"`}` +
+    (within === undefined ? "" : ` in "${within}"`);
+
+/** Waits until one thing with this label and role is on the screen and rests there; returns it. */
+export async function find(page, label, role, { within, timeout = 15_000 } = {}) {
+    const deadline = Date.now() + timeout;
+    let before;
+    for (let looks = 0; ; looks++) {
+        const items = await layout(page);
+        const found = matching(items, label, role, within);
+        if (found.length === 1) {
+            // What slides in is pressed where it ends. What always moves is taken as it is.
+            if (looks > 20 || before?.every((edge, i) => Math.abs(edge - found[0].rect[i]) < 1)) return found[0];
+            before = found[0].rect;
+        }
+        if (Date.now() > deadline) {
+            const many = found.map((it) => `${it.role} at ${it.rect}`).join("; ");
+            throw new Error(`${found.length === 0 ? "no" : `${found.length} times a`} ${called(label, role, within)} ` +
+                `on the screen after ${timeout} ms${many && ` (${many})`}. There are:\n${inventory(items)}`);
+        }
+        await sleep(50);
+    }
+}
+
+/** Whether it is on the screen now. */
+export async function isThere(page, label, role, { within } = {}) {
+    return matching(await layout(page), label, role, within).length > 0;
+}
+
+/** Waits until nothing with this label and role is on the screen. */
+export async function gone(page, label, role, { within, timeout = 15_000 } = {}) {
+    for (const deadline = Date.now() + timeout; await isThere(page, label, role, { within }); await sleep(50)) {
+        if (Date.now() > deadline) throw new Error(`there is still a ${called(label, role, within)} after ${timeout} ms`);
+    }
+}
+
+/** Waits until what it is set to is accepted; returns that. */
+export async function valueOf(page, label, role, accept = () => true, { within, timeout = 15_000 } = {}) {
+    for (const deadline = Date.now() + timeout; ; await sleep(50)) {
+        const { value } = await find(page, label, role, { within, timeout });
+        if (accept(value)) return value;
+        if (Date.now() > deadline) throw new Error(`the ${called(label, role, within)} has the value ${JSON.stringify(value)}`);
+    }
+}
+
+/** The mouse and keyboard of a page; of a frame in a page those of the page, with where the frame's corner is. */
+async function hand(page) {
+    if (page.mouse) return { mouse: page.mouse, keyboard: page.keyboard, corner: [0, 0] };
+    const element = await page.frameElement();
+    const { x, y } = await element.boundingBox();
+    const [left, top] = await element.evaluate((frame) => [frame.clientLeft, frame.clientTop]);
+    return { mouse: page.page().mouse, keyboard: page.page().keyboard, corner: [x + left, y + top] };
+}
+
+const twoFrames = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+/** Where the middle of it is for the mouse, which has been moved there. */
+export async function pointAt(page, label, role, options) {
+    const item = await find(page, label, role, options);
+    assert.notEqual(item.enabled, false, `the ${called(label, role)} cannot be used now`);
+    const { mouse, keyboard, corner } = await hand(page);
+    const at = centre(item).map((edge, i) => edge + corner[i]);
+    await mouse.move(...at);
+    return { item, mouse, keyboard, at };
+}
+
+/** Clicks on it. */
+export async function press(page, label, role, options) {
+    const { mouse, at } = await pointAt(page, label, role, options);
+    await mouse.click(...at);
+    await twoFrames(page);
+}
+
+/** Clicks on an entry of a menu, which a button of this name opens. */
+export async function choose(page, menu, entry) {
+    await press(page, menu, "button");
+    await press(page, entry);
+}
+
+/** Drags it by so many pixels, does `beforeRelease` where the pointer is then, and lets go. */
+export async function dragTo(page, label, dx, dy, { role, within, steps = 10, pause = 20, beforeRelease = () => {} } = {}) {
+    const { mouse, at: [x, y] } = await pointAt(page, label, role, { within });
+    await mouse.down();
+    for (let i = 1; i <= steps; i++) {
+        await mouse.move(x + (dx * i) / steps, y + (dy * i) / steps);
+        await sleep(pause);
+    }
+    await beforeRelease([x + dx, y + dy]);
+    await mouse.up();
+    await twoFrames(page);
+}
+
+/** The handle of the platform, for `find` and all that follow; a group of controls has the same name. */
+export const PLATFORM = ["Platform", "button", { within: "Canvas" }];
+
+/** Drags the platform. */
+export const dragPlatform = (page, dx, dy, options = {}) =>
+    dragTo(page, "Platform", dx, dy, { role: "button", within: "Canvas", ...options });
+
+/** Clicks on the canvas where there is nothing, so that keys are for the app. */
+export async function clickCanvas(page) {
+    const { mouse, at: [x, y] } = await pointAt(page, ...PLATFORM);
+    await mouse.click(x + 30, y + 50);
+}
+
+/** Puts the text in the place of what stands in the field. `enter` is the key that ends it. */
+export async function type(page, label, text, { role = /^(spinbutton|textbox)$/, within, enter = "Enter" } = {}) {
+    await reveal(page, label, role, { within });
+    const { mouse, keyboard, at } = await pointAt(page, label, role, { within });
+    await mouse.click(...at);
+    await keyboard.press("ControlOrMeta+A");
+    await keyboard.type(text);
+    if (enter) await keyboard.press(enter);
+}
+
+/** Opens the group of controls that it is in and scrolls until it is there. */
+export async function reveal(page, label, role, { within = /^(Controls|Sheet)$/ } = {}) {
+    if (await isThere(page, label, role)) return;
+    const section = SECTIONS[label];
+    if (section && await isThere(page, section, "button", { within })) await press(page, section, "button", { within });
+    for (let turns = 0; turns < 20 && !await isThere(page, label, role); turns++) {
+        const { mouse } = await pointAt(page, within, "region");
+        await mouse.wheel(0, 150);
+        await sleep(150);
+    }
+}
+
+/** Shows a plot in the column on the right, or where else a window of this size has its plots. */
+export async function openPlot(page, title, { within = /^(Plots|Dock|Sheet)$/ } = {}) {
+    const items = await layout(page);
+    const place = ["Plots", "Sheet", "Dock"].find((name) => fits(name, within) && matching(items, name, "region").length > 0);
+    const [group] = Object.entries(PLOTS).find(([, titles]) => titles.includes(title)) ?? [];
+    if (!await isThere(page, title, "tab", { within: place })) {
+        // The groups are a switch, or a list where it is narrow.
+        if (await isThere(page, "Plot group", "combobox", { within: place })) {
+            await press(page, "Plot group", "combobox", { within: place });
+            await press(page, group, "button");
+        } else {
+            await press(page, group, undefined, { within: place });
+        }
+    }
+    await press(page, title, "tab", { within: place });
+    return place;
+}
+
+/** Pixels per metre of the canvas, measured by the platform in two places; the robot is then where it was. */
+export async function pixelsPerMetre(page) {
+    const scenario = await page.evaluate(() => window.tautline.scenario());
+    const across = async (x) => {
+        const motion = { ...scenario.motion, position: [x, scenario.motion.position[1]] };
+        await page.evaluate((json) => window.tautline.load(json), JSON.stringify({ ...scenario, motion }));
+        await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
+        return centre(await find(page, ...PLATFORM))[0];
+    };
+    const [left, right] = [await across(0), await across(2)];
+    await across(scenario.motion.position[0]);
+    return (right - left) / 2;
+}
+
+/** A page on a server of its own, with this in its body. */
+export async function host(body, name = "localhost") {
+    const html = `<!doctype html><meta charset="utf-8"><title>Host</title><body>${body}`;
+    const server = createServer((request, response) => response.writeHead(200, { "content-type": "text/html" }).end(html));
+    await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+    const close = () => new Promise((resolve) => {
+        server.close(resolve);
+        server.closeAllConnections();
+    });
+    return { address: `http://${name}:${server.address().port}/`, close };
+}
+
+/**
+ * Opens such a page with the app in a frame of this size, between what stands `before` and `after` it. Gives the page, the
+ * frame once the app runs in it, and what closes the server.
+ */
+export async function framed(open, source, { attributes = "", width = 600, height = 400, before = "", after = "", name, options } = {}) {
+    const frame = `<iframe src="${source}" ${attributes} style="display: block; width: ${width}px; height: ${height}px"></iframe>`;
+    const { address, close } = await host(`${before}${frame}${after}`, name);
+    const page = await open(address, options);
+    return { page, frame: await frameOf(page, source), close };
+}
+
+/** The frame of a page with this address, once the app runs in it. */
+export async function frameOf(page, source) {
+    const start = source.split("#")[0];
+    const deadline = Date.now() + 15_000;
+    for (;;) {
+        const frame = page.frames().find((frame) => frame !== page.mainFrame() && frame.url().startsWith(start));
+        if (frame) {
+            await started(frame);
+            return frame;
+        }
+        if (Date.now() > deadline) throw new Error(`no frame with ${start}: ${page.frames().map((frame) => frame.url())}`);
+        await sleep(50);
     }
 }
 

@@ -7,7 +7,7 @@ import path from "node:path";
 import { after, test } from "node:test";
 import { setTimeout as sleep } from "node:timers/promises";
 import { fileURLToPath } from "node:url";
-import { browserTest, DIST, MAP, publish, waitForAnalysis, waitForStart } from "./harness.mjs";
+import { browserTest, DIST, press, publish, waitForAnalysis, waitForStart } from "./harness.mjs";
 
 const SCRIPT = fileURLToPath(new URL("../offline.sh", import.meta.url));
 const PATIENT = { timeout: 300_000 };
@@ -67,12 +67,12 @@ const firstKept = (page) => until("the first build is kept and serves the page",
     () => navigator.serviceWorker.controller?.state === "activated"));
 const updateKept = (page) => until("the new build is kept", async () => (await versions(page))[1] === "installed");
 
-/** The app runs, gives the paper's critical speed and has the title; all that it has loaded is of one build. */
+/** The app runs, gives the paper's critical speed and has the title behind the robot's name; all is of one build. */
 async function works(page, title) {
     await waitForStart(page, { timeout: 60_000 });
     const { critical } = await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 60_000 });
     assert.ok(Math.abs(critical.speed - 11.299) < 1e-3, `critical speed ${critical.speed}`);
-    assert.equal(await page.title(), title);
+    assert.equal(await page.title(), `Paper robot – ${title}`);
     await isOfOneBuild(page);
 }
 
@@ -91,7 +91,7 @@ async function maps(page) {
     // The first worker is the one that follows the pointer; the others are the pool's, which replaces those it loses.
     const before = page.workers();
     for (const worker of before.slice(1)) await worker.evaluate(() => self.close()).catch(() => {});
-    await page.mouse.click(...MAP);
+    await press(page, "Map", "button");
     await until("places of the map are done", () => page.evaluate(() => window.tautline.studies().map.done > 20), 90_000);
     assert.ok(page.workers().some((worker) => !before.includes(worker)), "there are new workers");
     await isOfOneBuild(page);

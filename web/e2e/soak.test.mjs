@@ -4,14 +4,17 @@
 //
 // No error, no growing memory, and at the end the answers of a page that has just been opened.
 import assert from "node:assert/strict";
-import { browserTest, MAP, waitForAnalysis, waitForStart } from "./harness.mjs";
+import { browserTest, centre, layout, openPlot, PLOTS, press, started, waitForAnalysis } from "./harness.mjs";
 
 const MINUTES = Number(process.env.SOAK_MINUTES ?? 1);
 const SEED = Number(process.env.SOAK_SEED ?? Math.floor(Math.random() * 2 ** 31));
 /** The largest number of elements per cable. */
 const LARGEST = 16;
-/** The plots' tabs in a window of 1280 × 800. */
-const TABS = [[991, 285], [1085, 285], [1164, 285], [998, 309], [1090, 309], [1171, 309], [1238, 309], [975, 332]];
+/**
+ * What is not touched: what opens the system's dialogs, and what makes a robot larger, since memory is what the largest
+ * robot has needed.
+ */
+const LEFT_ALONE = /open|save|copy|paste|share|embed|elements|cable|robot|more|example|preset|sound/i;
 /** Memory counts from here on: everything has been open once. */
 const WARM_UP = Math.min(60_000, (MINUTES * 60_000) / 2);
 
@@ -56,33 +59,37 @@ browserTest(`random use for ${MINUTES} min leaves no trace (seed ${SEED})`, asyn
             });
         },
     });
-    await waitForStart(page);
-    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
+    await started(page);
     const original = await scenario(page);
-    await page.mouse.click(...MAP);
+    await press(page, "Map", "button");
 
-    // Anything on the canvas may be grabbed, and any button, tab and value on the right and left pressed or dragged; but
-    // for the number of elements, at the foot of the controls: memory is what the largest robot has needed.
-    const somewhere = () => one([
-        () => [between(380, 940), between(280, 560)],
-        () => [between(145, 330), between(120, 430)],
-        () => [between(950, 1270), between(195, 340)],
-        () => [between(990, 1270), between(400, 760)],
-    ])();
+    /** The middle of any control, or any place on the canvas. */
+    const somewhere = async () => {
+        const items = await layout(page);
+        if (random() < 0.4) return onCanvas(items);
+        const controls = items.filter(({ role, label, enabled }) => enabled && role !== "text" && !LEFT_ALONE.test(label));
+        return controls.length > 0 ? centre(one(controls)) : onCanvas(items);
+    };
+    const onCanvas = (items) => {
+        const canvas = items.find(({ role, label }) => role === "region" && label === "Canvas");
+        const [x, y, width, height] = canvas?.rect ?? [380, 280, 560, 280];
+        return [between(x, x + width), between(y, y + height)];
+    };
     const actions = [
         async () => {
-            await page.mouse.move(...somewhere());
+            const items = await layout(page);
+            await page.mouse.move(...await somewhere());
             await page.mouse.down();
             const steps = Math.floor(between(1, 30));
-            for (let i = 0; i < steps; i++) await page.mouse.move(between(380, 940), between(280, 560));
+            for (let i = 0; i < steps; i++) await page.mouse.move(...onCanvas(items));
             await page.mouse.up();
         },
-        async () => page.mouse.click(...somewhere()),
+        async () => page.mouse.click(...await somewhere()),
         async () => {
-            await page.mouse.move(...somewhere());
+            await page.mouse.move(...await somewhere());
             await page.mouse.wheel(0, between(-300, 300));
         },
-        async () => page.keyboard.press(one(["Control+z", "Control+Shift+z", "m", "Space", "Escape", "Tab"])),
+        async () => page.keyboard.press(one(["Control+z", "Control+Shift+z", "m", "Space", "Escape", "Tab", "F6", "F", "Escape"])),
         async () => {
             const changed = structuredClone(original);
             changed.motion.position = [between(-6, 6), between(-3, 3)];
@@ -96,8 +103,8 @@ browserTest(`random use for ${MINUTES} min leaves no trace (seed ${SEED})`, asyn
     // What needs most: every plot of the finest mesh.
     const largest = { ...original, elements_per_cable: LARGEST, linearisation: "tangent" };
     await page.evaluate((json) => window.tautline.load(json), JSON.stringify(largest));
-    for (const tab of TABS) {
-        await page.mouse.click(...tab);
+    for (const title of Object.values(PLOTS).flat()) {
+        await openPlot(page, title);
         await page.waitForTimeout(1000);
     }
     const begun = Date.now();
@@ -121,7 +128,7 @@ browserTest(`random use for ${MINUTES} min leaves no trace (seed ${SEED})`, asyn
     console.log(`${done} actions; memory in MB (page, worker, pool) every minute and at the end: ` +
         [...course, end].map(megabytes).join(", "));
     const fresh = await open();
-    await waitForStart(fresh);
+    await started(fresh);
     const { revision: _, ...expected } = await waitForAnalysis(fresh, (analysis) => analysis.current, { timeout: 30_000 });
     const { revision: __, ...got } = last;
     assert.deepEqual(got, expected);

@@ -1,16 +1,15 @@
 // Studies in a browser: the map comes coarse to fine, can be cancelled, survives a lost worker and never holds the page
 // up. Times are recorded, never asserted: the machine decides them.
 import assert from "node:assert/strict";
-import { browserTest, commandLine, MAP, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
+import {
+    browserTest, commandLine, openPlot, PLATFORM, pointAt, press, screenshot, started as start, waitForAnalysis,
+} from "./harness.mjs";
 
 const PHONE = { width: 360, height: 740 };
-/** Where things are in a window of 1280 × 800. */
-const STOP = [905, 65];
-const TABS = { "Along the line": [998, 309], "Directions": [1097, 309], "Campbell": [1171, 309], "Mesh": [1238, 309] };
-const TOPICS = { "Along the line": "line", "Directions": "polar", "Campbell": "campbell", "Mesh": "convergence" };
-/** On a phone. */
-const PHONE_MAP = [332, 41];
+/** The plots that come of studies, and what these are about. */
+const TOPICS = { "Along the line": "line", "Directions": "polar", "Speed diagram": "campbell", "Mesh error": "convergence" };
 
+const switchMapOn = (page) => press(page, "Map", "button");
 const studies = (page) => page.evaluate(() => window.tautline.studies());
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
 const frames = async (page) => median(await page.evaluate(() => window.tautline.timings().frames_ms));
@@ -26,11 +25,6 @@ async function waitForStudies(page, predicate, { timeout = 120_000 } = {}) {
         }
         await page.waitForTimeout(10);
     }
-}
-
-async function start(page) {
-    await waitForStart(page);
-    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
 }
 
 /**
@@ -76,7 +70,7 @@ browserTest("the map comes coarse to fine and equals the command line", async ({
     const page = await open();
     await start(page);
     await page.evaluate(watchMap);
-    await page.mouse.click(...MAP);
+    await switchMapOn(page);
     const progress = await page.evaluate(() => window.progress);
     // Every fourth point of every fourth row.
     const [coarse] = progress.find(([, done]) => done >= 11 * 6);
@@ -89,12 +83,13 @@ browserTest("the map comes coarse to fine and equals the command line", async ({
     const { map_values: values } = await waitForStudies(page, (now) => now.map_values?.rows.length === map.total);
     assert.equal(values.current, true);
     compare(values.rows, await page.evaluate(() => window.tautline.scenario()));
-    await page.mouse.move(750, 330);
+    const { at: [x, y] } = await pointAt(page, ...PLATFORM);
+    await page.mouse.move(x + 90, y - 40);
     await page.waitForTimeout(300);
     await screenshot(page, "map light");
 
     // A click moves the platform, and the map has no reason to begin anew.
-    await page.mouse.click(750, 330);
+    await page.mouse.click(x + 90, y - 40);
     await page.waitForFunction(() => window.tautline.scenario().motion.position[0] > 1);
     await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
     assert.equal((await studies(page)).map.revision, map.revision);
@@ -103,16 +98,16 @@ browserTest("the map comes coarse to fine and equals the command line", async ({
 browserTest("a map is cancelled, resumed, and begins anew with another robot", async ({ open }) => {
     const page = await open();
     await start(page);
-    await page.mouse.click(...MAP);
+    await switchMapOn(page);
     await waitForStudies(page, ({ map }) => map.done > 20);
-    await page.mouse.click(...STOP); // Cancel, in the row below the switch.
+    await press(page, "Cancel", "button", { within: "Canvas" });
     await page.waitForTimeout(500);
     const stopped = (await studies(page)).map;
     await page.waitForTimeout(500);
     assert.deepEqual((await studies(page)).map, stopped, "it goes on");
     assert.ok(stopped.done < stopped.total && !stopped.finished, JSON.stringify(stopped));
     await screenshot(page, "map cancelled");
-    await page.mouse.click(...STOP); // Resume.
+    await press(page, "Resume", "button", { within: "Canvas" });
     await waitForStudies(page, ({ map }) => map.finished && map.revision > stopped.revision);
 
     const scenario = await page.evaluate(() => window.tautline.scenario());
@@ -129,7 +124,7 @@ browserTest("a map is cancelled, resumed, and begins anew with another robot", a
 browserTest("a map survives the loss of a worker", async ({ open }) => {
     const page = await open();
     await start(page);
-    await page.mouse.click(...MAP);
+    await switchMapOn(page);
     await waitForStudies(page, ({ map }) => map.done > 20);
     // The first worker is the one that follows the pointer.
     const pool = page.workers().slice(1);
@@ -145,13 +140,13 @@ browserTest("while a map is computed the platform follows the pointer", async ({
     const page = await open();
     await start(page);
     const record = async (what) => {
-        await page.mouse.move(640, 400);
+        const { at: [x, y] } = await pointAt(page, ...PLATFORM);
         await page.mouse.down();
         const [trails, analyses, behind] = [[], [], []];
         for (let i = 1; i <= 40; i++) {
             const asked = Date.now();
             const before = await page.evaluate(() => window.tautline.analysis().revision);
-            await page.mouse.move(640 + 2 * i, 400);
+            await page.mouse.move(x + 2 * i, y);
             // Nothing is asked for where the pointer came back to where it was.
             const answered = await page.waitForFunction((before) => window.tautline.analysis().revision > before, before,
                 { polling: 5, timeout: 5000 }).then(() => true, () => false);
@@ -173,12 +168,12 @@ browserTest("while a map is computed the platform follows the pointer", async ({
     };
     const scenario = await page.evaluate(() => window.tautline.scenario());
     await record("drag, no study");
-    await page.mouse.click(...MAP);
+    await switchMapOn(page);
     const { map: begun } = await waitForStudies(page, ({ map }) => map.done > 20);
     await record("drag, map at work");
     const { map } = await waitForStudies(page, ({ map }) => map.finished);
     assert.equal(map.revision, begun.revision, "a drag does not restart the map");
-    await page.mouse.click(...TABS["Along the line"]);
+    await openPlot(page, "Along the line");
     await waitForStudies(page, ({ line }) => line.finished);
     await record("drag, line open");
     await waitForStudies(page, ({ line }) => line.finished && line.current);
@@ -188,11 +183,11 @@ for (const colorScheme of ["light", "dark"]) {
     browserTest(`every study has its plot, ${colorScheme}`, async ({ open }) => {
         const page = await open("", { colorScheme });
         await start(page);
-        await page.mouse.click(...MAP);
-        for (const [tab, at] of Object.entries(TABS)) {
-            await page.mouse.click(...at);
-            await waitForStudies(page, (now) => now[TOPICS[tab]].finished && now.map.finished);
-            await page.mouse.move(640, 700);
+        await switchMapOn(page);
+        for (const [tab, topic] of Object.entries(TOPICS)) {
+            await openPlot(page, tab);
+            await waitForStudies(page, (now) => now[topic].finished && now.map.finished);
+            await page.mouse.move(640, 20);
             await page.waitForTimeout(400);
             await screenshot(page, `${tab} ${colorScheme}`);
         }
@@ -201,16 +196,15 @@ for (const colorScheme of ["light", "dark"]) {
     browserTest(`maps and plots on a phone, ${colorScheme}`, async ({ open }) => {
         const page = await open("", { colorScheme, viewport: PHONE });
         await start(page);
-        await page.mouse.click(...PHONE_MAP);
+        await switchMapOn(page);
         await waitForStudies(page, ({ map }) => map.finished);
         await page.waitForTimeout(400);
         await screenshot(page, `map phone ${colorScheme}`);
-        await page.mouse.click(103, 475); // Plots
-        await page.waitForTimeout(300);
-        for (const [tab, x] of Object.entries({ "Along the line": 51, "Directions": 149, "Campbell": 230, "Mesh": 297 })) {
-            await page.mouse.click(x, 617);
-            await waitForStudies(page, (now) => now[TOPICS[tab]].finished);
-            await page.mouse.move(200, 700);
+        await press(page, "Plots", "tab");
+        for (const [tab, topic] of Object.entries(TOPICS)) {
+            await openPlot(page, tab, { within: "Sheet" });
+            await waitForStudies(page, (now) => now[topic].finished);
+            await pointAt(page, "Sheet", "region");
             await page.mouse.wheel(0, 3000);
             await page.waitForTimeout(500);
             await screenshot(page, `${tab} phone ${colorScheme}`);

@@ -1,32 +1,17 @@
 // What is around the answer, where a browser has a say in it: addresses, files, storage, the clipboard, sound, movement.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { browserTest, colours, screenshot, waitForAnalysis, waitForStart } from "./harness.mjs";
-
-const FILE_MENU = [20, 12];
-const SHARE = [186, 12];
-const PIN = [223, 12];
-const SOUND = [1158, 253];
-const HELP = [130, 12];
-const VALIDATION = [148, 108];
-/** The height of an entry of the File menu below its title. */
-const FILE_ENTRIES = { "modes": 117, "plot as PNG": 163, "canvas": 209 };
+import {
+    browserTest, choose, clickCanvas, colours, dragPlatform as drag, find, gone, press, screenshot, started, type, valueOf,
+    waitForAnalysis,
+} from "./harness.mjs";
 
 const scenario = (page) => page.evaluate(() => window.tautline.scenario());
 const notice = (page) => page.locator("#tautline-notice").textContent();
 
-async function started(page) {
-    await waitForStart(page);
-    await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
-}
-
-/** Grabs the platform, which is in the middle of the canvas at first, and lets go of it elsewhere. */
+/** Grabs the platform and lets go of it elsewhere. */
 async function dragPlatform(page, by) {
-    const [x, y] = [654, 412];
-    await page.mouse.move(x, y);
-    await page.mouse.down();
-    for (let i = 1; i <= 5; i++) await page.mouse.move(x + (by[0] * i) / 5, y + (by[1] * i) / 5);
-    await page.mouse.up();
+    await drag(page, ...by);
     await page.waitForFunction(() => window.tautline.scenario().motion.position[0] !== 0);
     await waitForAnalysis(page, (analysis) => analysis.current, { timeout: 30_000 });
 }
@@ -39,9 +24,7 @@ async function waitForScenario(page, predicate, argument) {
 browserTest("known numbers are computed and compared on the page", async ({ open }) => {
     const page = await open();
     await started(page);
-    await page.mouse.click(...HELP);
-    await page.waitForTimeout(300);
-    await page.mouse.click(...VALIDATION);
+    await choose(page, "More", "Validation");
     await page.waitForFunction(() => /checks pass/.test(document.getElementById("tautline-notice").textContent), undefined, { timeout: 60_000 });
     const [, passed, all] = (await notice(page)).match(/^(\d+) of (\d+) checks pass\.$/).map(Number);
     assert.ok(passed === all && all > 20, await notice(page));
@@ -98,7 +81,7 @@ browserTest("two tabs keep a robot each, and a new one begins with the last one 
     // Coming back to a tab makes it the one used last, also without a change.
     await second.evaluate(() => document.activeElement.blur());
     await second.waitForTimeout(300);
-    await second.mouse.click(654, 700);
+    await clickCanvas(second);
     await second.waitForTimeout(500);
     assert.equal(await gravity(await another()), 3);
     // Its memory may be taken away, as private windows do; then the shared one serves.
@@ -118,7 +101,7 @@ browserTest("a link carries the robot to another page", async ({ open }) => {
     await started(page);
     await dragPlatform(page, [60, -30]);
     const sent = await scenario(page);
-    await page.mouse.click(...SHARE);
+    await choose(page, "Share", "Copy link");
     await page.waitForFunction(() => document.getElementById("tautline-notice").textContent.includes("clipboard"));
     const link = await page.evaluate(() => navigator.clipboard.readText());
     assert.ok(link.includes("#s=") && link.length < 300, link);
@@ -151,7 +134,7 @@ browserTest("scenario files are opened, dropped and saved", async ({ open }) => 
     await started(page);
     const other = { ...(await scenario(page)), name: "From a file", gravity: 3.71 };
     const file = { name: "mars.json", mimeType: "application/json", buffer: Buffer.from(JSON.stringify(other)) };
-    await page.mouse.click(654, 700);
+    await clickCanvas(page);
     const [chooser] = await Promise.all([page.waitForEvent("filechooser"), page.keyboard.press("Control+o")]);
     await chooser.setFiles(file);
     await waitForScenario(page, () => window.tautline.scenario().name === "From a file");
@@ -190,13 +173,13 @@ browserTest("scenario files are opened, dropped and saved", async ({ open }) => 
 browserTest("numbers and pictures are saved", async ({ open }) => {
     const page = await open();
     await started(page);
-    const save = async (entry) => {
-        await page.mouse.click(...FILE_MENU);
-        await page.waitForTimeout(400);
-        const [saved] = await Promise.all([page.waitForEvent("download"), page.mouse.click(60, FILE_ENTRIES[entry])]);
+    const save = async (menu, entry) => {
+        await press(page, menu, "button");
+        await find(page, entry);
+        const [saved] = await Promise.all([page.waitForEvent("download"), press(page, entry)]);
         return [saved.suggestedFilename(), await readFile(await saved.path())];
     };
-    const [name, csv] = await save("modes");
+    const [name, csv] = await save("More", "Save modes as CSV");
     assert.equal(name, "paper-robot-modes.csv");
     const rows = csv.toString().trim().split("\r\n").map((row) => row.split(","));
     assert.deepEqual(rows[0].slice(0, 4), ["real", "imaginary", "multiplicity", "frequency_hz"]);
@@ -207,8 +190,11 @@ browserTest("numbers and pictures are saved", async ({ open }) => {
     const known = new Set(eigenvalues.map(([re, im]) => `${re} ${Math.abs(im)}`));
     assert.ok(rows.slice(1).every((row) => known.has(`${Number(row[0])} ${Number(row[1])}`)), csv.toString());
 
-    for (const [entry, expected, smallest] of [["canvas", "paper-robot-canvas.png", 400], ["plot as PNG", "paper-robot-plot.png", 200]]) {
-        const [name, png] = await save(entry);
+    for (const [menu, entry, expected, smallest] of [
+        ["More", "Save the canvas as PNG", "paper-robot-canvas.png", 400],
+        ["More for Eigenvalues", "Save as PNG", "paper-robot-plot.png", 200],
+    ]) {
+        const [name, png] = await save(menu, entry);
         assert.equal(name, expected);
         assert.deepEqual([...png.subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47]);
         const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
@@ -218,10 +204,34 @@ browserTest("numbers and pictures are saved", async ({ open }) => {
     }
 }, { timeout: 120_000 });
 
+browserTest("the robot's name is edited in its menu and stands in the tab's title", async ({ open }) => {
+    const page = await open();
+    await started(page);
+    assert.equal(await page.title(), "Paper robot – Tautline");
+    await press(page, "Robot", "combobox");
+    await type(page, "Robot's name", "My robot", { role: "textbox" });
+    await page.waitForFunction(() => window.tautline.scenario().name === "My robot");
+    await page.waitForFunction(() => document.title === "My robot – Tautline");
+    await page.keyboard.press("Escape");
+    await gone(page, "Robot's name", "textbox");
+    await press(page, "Undo", "button");
+    await page.waitForFunction(() => window.tautline.scenario().name === "Paper robot");
+});
+
+browserTest("what runs can be stopped", async ({ open }) => {
+    const page = await open();
+    await started(page);
+    await press(page, "Pause", "button");
+    await press(page, "Play", "button");
+    await press(page, /^Mode at 11\.\d/);
+    await valueOf(page, /^Mode at 11\.\d/, undefined, (value) => value === true || value === undefined);
+    await press(page, /^Let go at 5/);
+});
+
 browserTest("first visitors are shown around, once", async ({ open }) => {
     const page = await open("", { tour: true });
     await started(page);
-    assert.match(await notice(page), /Grab the platform/);
+    await page.waitForFunction(() => document.getElementById("tautline-notice").textContent.length > 20);
     await screenshot(page, "tour");
     await page.keyboard.press("Escape");
     await page.waitForFunction(() => document.getElementById("tautline-notice").textContent === "");
@@ -257,13 +267,15 @@ browserTest("the mode's frequency sounds when it is asked to", async ({ open }) 
     });
     await started(page);
     assert.deepEqual(await page.evaluate(() => window.heard), [], "silent until asked");
-    await page.mouse.click(...SOUND);
+    await press(page, /^Mode at 11\.3 m\/s$/, "radio");
+    await page.waitForTimeout(500);
+    await press(page, "Sound");
     await page.waitForFunction(() => window.heard.length >= 2);
     const { critical } = await page.evaluate(() => window.tautline.analysis());
     const [frequency, volume] = await page.evaluate(() => window.heard);
     assert.ok(Math.abs(frequency / Math.cbrt(critical.frequency_hz) - 200) < 0.01, `${frequency} Hz`);
     assert.ok(volume > 0 && volume < 0.2, `volume ${volume}`);
-    await page.mouse.click(...SOUND);
+    await press(page, "Sound");
     await page.waitForFunction(() => window.heard.at(-1) === 0);
 }, { timeout: 120_000 });
 
@@ -278,10 +290,13 @@ browserTest("a screen reader is told the robot and its results", async ({ open }
         return Math.abs(Number(number) - exact) <= 0.5001 * 10 ** -decimals.length;
     };
     const first = await page.evaluate(() => window.tautline.analysis());
-    assert.match(await summary(), /Critical speed 11\.3 metres per second/);
+    await page.locator("#tautline-summary").filter({ hasText: "Critical speed 11.3 metres per second" }).waitFor({ state: "attached" });
     assert.ok(told(await summary(), first.critical.speed) && Math.abs(first.critical.speed - 11.299) < 1e-3);
+    // The list has the plots' findings as well, and comes when those rest.
+    const listed = (text) => page.locator("#tautline-details li").filter({ hasText: text }).first().waitFor({ state: "attached" });
+    await listed("Stable at this speed");
     assert.match((await details()).join(" "), /Paper robot with 4 cables\..*Stable at this speed/);
-    await page.mouse.click(...PIN);
+    await press(page, "Pin", "button");
     await page.waitForTimeout(1500);
     await dragPlatform(page, [60, -30]);
     const { critical } = await page.evaluate(() => window.tautline.analysis());
@@ -289,6 +304,7 @@ browserTest("a screen reader is told the robot and its results", async ({ open }
         await page.waitForTimeout(100);
     }
     assert.ok(told(await summary(), critical.speed), `${await summary()}: ${critical.speed}`);
+    await listed(/Against the pinned design: -\d/);
     assert.match((await details()).join(" "), /Against the pinned design: -\d(\.\d+)? metres per second/);
     await screenshot(page, "pinned");
 }, { timeout: 120_000 });

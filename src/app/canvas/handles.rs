@@ -5,8 +5,10 @@ use eframe::egui::{
 };
 
 use super::layout::Layout;
+use super::paint::trimmed;
 use super::{Scene, View};
 use crate::app::command::Command;
+use crate::app::digits;
 use crate::app::meaning::Explain as _;
 use crate::app::round::roundest;
 use crate::app::state::{Camera, Document};
@@ -21,7 +23,21 @@ const SPEED_STEP: f64 = 0.5;
 /// Directions turn by this much per key press, in radians; with Shift by a tenth of it.
 const TURN_STEP: f64 = 0.1;
 
-/// The platform and the arrow's tip. Gives whether the tip is held.
+/// What the pointer holds.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Held {
+    /// The platform.
+    pub platform: bool,
+    /// The arrow's tip.
+    pub tip: bool,
+}
+
+/// A speed in m/s, in words.
+pub fn speed(metres_per_second: f64) -> String {
+    format!("{} m/s", digits::certain(metres_per_second, Some(0.005)))
+}
+
+/// The platform and the arrow's tip. Gives what is held.
 pub fn ui(
     ui: &mut Ui,
     painter: &Painter,
@@ -29,9 +45,10 @@ pub fn ui(
     scene: &Scene,
     document: &Document,
     commands: &mut Vec<Command>,
-) -> bool {
+) -> Held {
     let Layout { view, arrow, .. } = layout;
-    let platform = handle(ui, painter, "Platform", layout.platform, CursorIcon::Grab);
+    let at = place(document.scenario.motion.position);
+    let platform = handle(ui, painter, "Platform", at, layout.platform, CursorIcon::Grab);
     let mut scenario = document.scenario.clone();
     let motion = &mut scenario.motion;
     if let Some(grabbed) = drag(ui, &platform, layout.platform) {
@@ -43,12 +60,13 @@ pub fn ui(
         motion.position = [motion.position[0] + x * step, motion.position[1] + y * step];
     }
     let [x, y] = motion.position;
+    let platform_held = platform.is_pointer_button_down_on();
     if !platform.dragged() {
         let text = format!("Platform at ({x:.3}, {y:.3}) m. Drag it; arrow keys move it, with Shift finely.");
         platform.explained(text);
     }
 
-    let tip = handle(ui, painter, "Velocity", layout.tip, CursorIcon::Grab);
+    let tip = handle(ui, painter, "Velocity", velocity(motion.speed, motion.direction), layout.tip, CursorIcon::Grab);
     if let Some(grabbed) = drag(ui, &tip, layout.tip) {
         let first = at_first(ui, &tip, (motion.speed, motion.direction));
         let from_platform = grabbed - layout.platform;
@@ -68,7 +86,7 @@ pub fn ui(
         let [x, y] = motion.direction;
         motion.direction = [cosine * x - sine * y, sine * x + cosine * y];
     }
-    let held = tip.is_pointer_button_down_on();
+    let held = Held { platform: platform_held, tip: tip.is_pointer_button_down_on() };
     if !tip.dragged() {
         let speed = motion.speed;
         let step = arrow.step;
@@ -94,7 +112,8 @@ pub fn winches(
 ) {
     let mut scenario = document.scenario.clone();
     for (i, (cable, &centre)) in scenario.cables.iter_mut().zip(&layout.winches).enumerate() {
-        let winch = handle(ui, painter, &format!("Winch {}", i + 1), centre, CursorIcon::Grab);
+        let name = format!("Winch {}", i + 1);
+        let winch = handle(ui, painter, &name, place(cable.anchor), centre, CursorIcon::Grab);
         if let Some(grabbed) = drag(ui, &winch, centre) {
             cable.anchor = moved(at_first(ui, &winch, cable.anchor), layout.view.pos_in_world(grabbed), &layout.view);
         }
@@ -112,11 +131,26 @@ pub fn winches(
     }
 }
 
-/// A thing to grab at `centre`, with a ring when it has the keyboard's focus.
-fn handle(ui: &Ui, painter: &Painter, name: &str, centre: Pos2, cursor: CursorIcon) -> Response {
+/// A place in m, in words.
+fn place(place: [f64; 2]) -> String {
+    // Without a sign where it rounds to 0.
+    let [x, y] = place.map(|coordinate| (100.0 * coordinate).round() / 100.0 + 0.0);
+    format!("({x:.2}, {y:.2}) m")
+}
+
+/// A velocity in words: its speed and its direction, 0° to the right and 90° upward.
+fn velocity(metres_per_second: f64, [x, y]: [f64; 2]) -> String {
+    // Without a sign where it rounds to 0.
+    let degrees = (10.0 * y.atan2(x).to_degrees()).round() / 10.0 + 0.0;
+    format!("{} at {}°", speed(metres_per_second), trimmed(degrees))
+}
+
+/// A thing to grab at `centre`, with a ring when it has the keyboard's focus. `value` says where it is, in words.
+fn handle(ui: &Ui, painter: &Painter, name: &str, value: String, centre: Pos2, cursor: CursorIcon) -> Response {
     let rect = Rect::from_center_size(centre, Vec2::splat(GRAB));
     let response = ui.interact(rect, ui.scope_id().with(name), Sense::click_and_drag()).on_hover_cursor(cursor);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+    let info = WidgetInfo { current_text_value: Some(value), ..WidgetInfo::labeled(Role::Button, true, name) };
+    response.widget_info(|| info.clone());
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
@@ -179,8 +213,15 @@ fn keys(ui: &Ui, response: &Response) -> Option<([f64; 2], f64)> {
 }
 
 /// Zoom with the wheel or two fingers, pan by dragging the background; where clicks mean nothing else, double-click to
-/// see the whole robot.
-pub fn camera(camera: &mut Camera, ui: &Ui, background: &Response, view: &View, clicks_are_free: bool) {
+/// see the whole robot. Where the wheel does not zoom by itself, because it scrolls the page around, it does so with Ctrl.
+pub fn camera(
+    camera: &mut Camera,
+    ui: &Ui,
+    background: &Response,
+    view: &View,
+    clicks_are_free: bool,
+    wheel_zooms: bool,
+) {
     if background.double_clicked() && clicks_are_free {
         *camera = Camera::default();
         return;
@@ -203,7 +244,8 @@ pub fn camera(camera: &mut Camera, ui: &Ui, background: &Response, view: &View, 
     let pointer = pointer.filter(|_| background.contains_pointer());
     let Some(pointer) = touch.map(|touch| touch.center_pos).or(pointer) else { return };
     let factor = ui.input(|input| {
-        let wheel = (f64::from(input.smooth_scroll_delta().y) / 300.0).exp();
+        // With Ctrl the wheel comes as a zoom, not as scrolling.
+        let wheel = if wheel_zooms { (f64::from(input.smooth_scroll_delta().y) / 300.0).exp() } else { 1.0 };
         f64::from(input.zoom_delta()) * wheel
     });
     if (factor - 1.0).abs() < 1e-9 {
@@ -212,7 +254,26 @@ pub fn camera(camera: &mut Camera, ui: &Ui, background: &Response, view: &View, 
     let zoom = (camera.zoom * factor).clamp(0.2, 200.0);
     // The point under the pointer stays there.
     let keep = 1.0 - camera.zoom / zoom;
-    let [x, y] = view.vec_in_world(pointer - view.rect.center());
+    let [x, y] = view.vec_in_world(pointer - view.middle);
     camera.offset = [camera.offset[0] + x * keep, camera.offset[1] + y * keep];
     camera.zoom = zoom;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_is_told_in_metres() {
+        assert_eq!(place([-0.001, 4.946]), "(0.00, 4.95) m");
+        assert_eq!(place([8.0, -3.0]), "(8.00, -3.00) m");
+    }
+
+    #[test]
+    fn a_velocity_is_told_with_its_direction() {
+        assert_eq!(velocity(5.0, [1.0, 0.0]), "5.00 m/s at 0°");
+        assert_eq!(velocity(12.0, [0.0, -2.0]), "12.00 m/s at −90°");
+        assert_eq!(velocity(0.4, [1.0, -1e-9]), "0.40 m/s at 0°");
+        assert_eq!(velocity(0.0, [1.0, 1.0]), "0 m/s at 45°");
+    }
 }

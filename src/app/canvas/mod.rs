@@ -1,40 +1,86 @@
-//! The robot, drawn and dragged: model (what there is), layout (where it is on the screen), paint,
+//! The robot, drawn and dragged: model (what there is), layout (where it is on the screen), what paints and says it,
 //! handles, and the map under it.
 
 mod arrow;
+mod cables;
 mod handles;
+mod labels;
 mod layout;
+mod legend;
 pub mod map;
 mod model;
 mod paint;
+mod range;
+mod release;
+mod trouble;
+mod velocity;
 mod view;
 
-use eframe::egui::{self, Rect, Sense, Ui};
+use eframe::egui::{self, Align, Painter, Rect, Sense, Stroke, TextStyle, Ui, Vec2};
+
+pub use eframe::egui::epaint::MarginF32 as Insets;
 
 use arrow::Arrow;
-use layout::Layout;
+use handles::Held;
+use labels::{Pen, Places};
+use layout::{Before, Layout};
 pub use map::named;
-pub use model::{Scene, frame, phase_advance};
+pub use model::{Scene, advance, frame, step};
+use paint::Look;
 pub use view::View;
 
+use crate::app::answers::CriticalState;
 use crate::app::command::Command;
 use crate::app::facts::Facts;
-use crate::app::state::{Plot, Session, UiState};
-use crate::app::{digits, series};
-use crate::compute::protocol::Topic;
+use crate::app::state::{Camera, Plot, Session, UiState};
+use crate::app::{digits, series, theme};
+use crate::compute::protocol::{Revision, Topic};
 use crate::robot::BoundingBox;
+
+/// A critical speed that has been recomputed for longer than this, in s, is shown as an old one. Before that it would only
+/// flicker.
+const PATIENCE: f64 = 0.3;
+/// A canvas that is narrower than this, in points, has few words.
+const NARROW: f32 = 480.0;
+/// A corner that is at least this wide, in points, has room for the button that fits the view beside the map's legend.
+const WIDE: f32 = 280.0;
+/// Below its top the legend takes so much, in points.
+const LEGEND: f32 = 60.0;
+/// Room around the button that fits the view, in points.
+const ROOM: f32 = 8.0;
+
+/// How much of the canvas is free.
+#[derive(Clone, Copy, Debug)]
+pub struct Space {
+    /// How far something else reaches into the canvas from its sides, in points: the workspace keeps clear of that.
+    pub insets: Insets,
+    /// Where the legend and the button that fits the view go.
+    pub corner: Rect,
+    /// On a phone: small letters, and nothing that can be read elsewhere.
+    pub compact: bool,
+    /// Whether there is a legend.
+    pub legend: bool,
+    /// Whether the line through the pose goes down to the plot under the canvas.
+    pub pose_line: bool,
+}
 
 /// What the canvas keeps from frame to frame.
 #[derive(Default)]
 pub struct Runtime {
+    /// The map from world to screen of the last frame: what is under the canvas shares its x axis.
+    pub view: Option<View>,
     /// Pictures made of studies.
     layer: map::Layer,
     /// What was the frame when the pointer was pressed, else what it is.
     frame: Option<BoundingBox>,
     /// The arrow of the last frame.
     arrow: Option<Arrow>,
-    /// Whether its tip was held then.
-    holds_tip: bool,
+    /// What was held then.
+    held: Held,
+    /// The range of the tensions' colours.
+    range: legend::Range,
+    /// Which state the critical speed on show belongs to, where that is an earlier one, and since when it has been, in s.
+    old: Option<(Option<Revision>, f64)>,
 }
 
 /// Draws the canvas in all the room there is, and turns drags, clicks and keys into commands. Gives where it is.
@@ -44,47 +90,147 @@ pub fn ui(
     session: &mut Session,
     ui: &mut Ui,
     facts: Facts<'_>,
+    space: Space,
     commands: &mut Vec<Command>,
 ) -> Rect {
     let Facts { document, answers, studies, .. } = facts;
     let (rect, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Robot canvas"));
     let scene = Scene::new(&document.scenario, answers, &state.playback);
+    let layout = lay_out(runtime, ui, rect, space, session.camera, &scene);
+    let view = &layout.view;
+    let mut painter = ui.painter_at(rect);
+    painter.set_clip_rect(rect.intersect(ui.clip_rect()));
+    paint::background(&painter, ui.visuals(), view);
+    runtime.layer.update(ui, facts, state.map);
+    let lines = cables::lines(&layout, &scene);
+    let farthest = layout.mark(scene.farthest_mark).map_or(layout.tip, |mark| mark.at);
+    let arrow = vec![layout.platform, farthest];
+    let taken = map::Taken { lines: lines.iter().cloned().chain([arrow]).collect(), areas: vec![space.corner] };
+    runtime.layer.paint(&painter, ui, view, &taken);
+    let mut pen = pen(ui, &painter, rect, space);
+    let with_border = runtime.held.platform || scene.trouble.is_some();
+    if with_border {
+        runtime.layer.border(&painter, ui.visuals(), view);
+    }
+    let with_border = with_border && studies.shown(Topic::Border).is_some();
+    if space.pose_line {
+        let ends = [layout.platform, egui::Pos2::new(layout.platform.x, rect.max.y)];
+        paint::dashed(&painter, ends, Stroke::new(1.5, pen.tokens.accent), [5.0, 4.0]);
+    }
+    for line in &lines {
+        pen.places.add_line(line);
+    }
+    // Over a map the pointer asks for the map's values.
+    let pointed = if state.map.on { None } else { cables::under_pointer(&background, &lines) };
+    if let Some(cable) = pointed.and_then(|cable| scene.cables.get(cable)) {
+        paint::hovered(&painter, view, cable, pen.tokens);
+    }
+    let largest = scene.largest_force();
+    let strongest = runtime.range.end(&document.original, largest, answers.pose_is_current());
+    let look = Look { over_map: state.map.on, strongest, compact: space.compact && rect.width() < NARROW };
+    paint::scene(&mut pen, ui.visuals(), &layout, &scene, look);
+    velocity::ui(&mut pen, &layout, &scene, said(runtime, ui, &scene, look, facts));
+    trouble::ui(&mut pen, &layout, &scene);
+    paint::responsible(&mut pen, &layout, &scene, look);
+    // The marker belongs to the diagram beside it, and to one pose.
+    let polar = studies.shown(Topic::Polar).filter(|shown| shown.current && state.plot == Plot::Directions);
+    if let Some((direction, speed)) = polar.and_then(|shown| series::worst_direction(shown.known)) {
+        velocity::worst(&mut pen, &layout, direction, &digits::like(speed, facts.share()));
+    }
+    if with_border {
+        trouble::border_words(&mut pen, &layout, &scene);
+    }
+    if session.labels {
+        cables::labels(&mut pen, &lines, &scene);
+    }
+    cables::ui(ui, &lines, &scene, rect, pointed);
+    if state.map.on {
+        map::point(ui, &painter, &background, view, facts, commands);
+    }
+    runtime.held = handles::ui(ui, &painter, &layout, &scene, document, commands);
+    if session.unlocked {
+        handles::winches(ui, &painter, &layout, &scene, document, commands);
+    }
+    let wheel_zooms = !session.embedded;
+    handles::camera(&mut session.camera, ui, &background, view, !state.map.on, wheel_zooms);
+    let at_left = space.corner.center().x < rect.center().x;
+    if state.map.on {
+        map::controls(&mut runtime.layer, &mut state.map, ui, space.corner, facts, commands);
+    } else if space.legend {
+        let forces = [strongest, largest.unwrap_or(0.0)];
+        legend::tensions(&painter, ui.visuals(), &pen.font, space.corner, at_left, forces);
+    }
+    fit(runtime, &mut session.camera, ui, rect, space, state.map.on);
+    rect
+}
+
+/// Puts the scene on the screen. Nothing of that depends on whether the pose has an equilibrium, or it would jump.
+fn lay_out(runtime: &mut Runtime, ui: &Ui, rect: Rect, space: Space, camera: Camera, scene: &Scene) -> Layout {
     // The frame follows the winches, but not while one is dragged: the ground would move under the pointer.
     let pressed = ui.input(|input| input.pointer.any_down());
     let frame = runtime.frame.filter(|_| pressed).unwrap_or(scene.frame);
     runtime.frame = Some(frame);
-    let held = runtime.arrow.filter(|_| pressed && runtime.holds_tip);
-    let before = runtime.arrow.map(|arrow| arrow.step);
-    let layout = Layout::new(rect, frame, session.camera, &scene, held, before);
-    let view = &layout.view;
-    runtime.arrow = Some(layout.arrow);
-    let mut painter = ui.painter_at(rect);
-    painter.set_clip_rect(rect.intersect(ui.clip_rect()));
-    paint::background(&painter, ui.visuals(), view);
-    runtime.layer.update(ui, studies, state.map);
-    runtime.layer.paint(&painter, ui, view);
-    paint::scene(&painter, ui.visuals(), &layout, &scene, state.map.on);
-    // The marker belongs to the diagram beside it, and to one pose.
-    let polar = studies.shown(Topic::Polar).filter(|shown| shown.current && state.plot == Plot::Directions);
-    if let Some((direction, speed)) = polar.and_then(|shown| series::worst_direction(shown.known)) {
-        paint::worst(&painter, ui.visuals(), &layout, direction, &digits::like(speed, facts.share()));
+    let view = View::new(rect, space.insets, frame, camera);
+    let before = Before { arrow: runtime.arrow, pressed, held: runtime.held.tip };
+    let layout = Layout::new(view, rect - space.insets, scene, before);
+    (runtime.arrow, runtime.view) = (Some(layout.arrow), Some(view));
+    layout
+}
+
+fn pen<'a>(ui: &Ui, painter: &'a Painter, rect: Rect, space: Space) -> Pen<'a> {
+    let mut font = TextStyle::Small.resolve(ui.style());
+    if space.compact {
+        font.size -= 1.0;
     }
-    if state.map.on {
-        map::point(ui, &painter, &background, view, facts, commands);
+    let mut places = Places::new(rect.shrink(4.0));
+    if space.legend {
+        places.keep_free(space.corner);
     }
-    runtime.holds_tip = handles::ui(ui, &painter, &layout, &scene, document, commands);
-    if session.unlocked {
-        handles::winches(ui, &painter, &layout, &scene, document, commands);
+    Pen { painter, tokens: theme::tokens(ui.visuals()), font, places }
+}
+
+/// The speeds on the arrow's line in words, with the digits that are certain.
+fn said(runtime: &mut Runtime, ui: &Ui, scene: &Scene, look: Look, facts: Facts<'_>) -> velocity::Said {
+    let now = ui.input(|input| input.time);
+    let recomputing = matches!(facts.answers.critical(), CriticalState::Recomputing { .. });
+    // In a drag one follows the other: none of them is old.
+    let of = facts.answers.critical_revision();
+    runtime.old = recomputing.then(|| runtime.old.filter(|(before, _)| *before == of).unwrap_or((of, now)));
+    let is_old = runtime.old.is_some_and(|(_, since)| now - since > PATIENCE);
+    if recomputing && !is_old {
+        ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(PATIENCE));
     }
-    handles::camera(&mut session.camera, ui, &background, view, !state.map.on);
-    if state.map.on {
-        runtime.layer.legend(&painter, ui, rect, facts);
+    let critical = scene.critical.map_or(String::new(), |first| {
+        let speed = digits::certain(first.speed, facts.certainty.speed());
+        if is_old { format!("critical was {speed}") } else { format!("critical {speed}") }
+    });
+    let waves = scene.waves.filter(|_| !look.compact);
+    let waves = waves.map_or(String::new(), |speed| format!("waves {}", digits::like(speed, facts.share())));
+    velocity::Said { speed: handles::speed(scene.speed), critical, is_old, waves }
+}
+
+/// The button that brings everything into view: always where there is room for it, else where something is out of view.
+fn fit(runtime: &mut Runtime, camera: &mut Camera, ui: &mut Ui, rect: Rect, space: Space, over_map: bool) {
+    let pressed = if space.compact || !space.legend {
+        let height = if space.compact { 44.0 } else { 32.0 };
+        let room = Rect::from_min_max(rect.min, rect.max - Vec2::splat(ROOM));
+        let at_foot = egui::Layout::right_to_left(Align::Max);
+        *camera != Camera::default() && legend::fit(ui, room, at_foot, false, height)
     } else {
-        paint::legend(&painter, ui.visuals(), rect, &scene);
+        // Beside the map's legend, where there is room for both, else under the map's controls; under the other legend.
+        let down = if over_map && space.corner.width() >= WIDE {
+            0.0
+        } else if over_map {
+            space.corner.height()
+        } else {
+            LEGEND
+        };
+        let under = space.corner.translate(Vec2::new(0.0, down));
+        legend::fit(ui, under, egui::Layout::right_to_left(Align::Min), true, 28.0)
+    };
+    if pressed {
+        *camera = Camera::default();
+        runtime.range.fit();
     }
-    let legend = !state.map.on && scene.tensions.is_some();
-    paint::arrow_legend(&painter, ui.visuals(), rect, layout.arrow, legend);
-    map::controls(&mut state.map, &mut session.camera, ui, rect, studies, commands);
-    rect
 }

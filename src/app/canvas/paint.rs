@@ -1,67 +1,111 @@
-//! Puts a scene on the screen.
+//! Puts a scene on the screen: the workspace with its metres, cables, winches and the platform.
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, Visuals};
 
-use super::arrow::Arrow;
+use super::labels::{Pen, along};
 use super::layout::Layout;
+use super::model::CableLine;
 use super::{Scene, View};
 use crate::app::round::round_step;
-use crate::app::theme;
+use crate::app::theme::{self, Tokens};
+use crate::robot::TensionLaw;
+use crate::stability::Instability;
 
-/// The width of the colour bar of the tensions, in points.
-const BAR: f32 = 130.0;
-/// Longer lines than this, in points, are not dashed.
+/// Longer lines than this, in points, are not dashed: far outside the canvas the dashes would be without number.
 const LONGEST_DASHED: f32 = 1e4;
+/// The width of a cable, in points.
+const CABLE: f32 = 3.0;
+/// The width and the strength of what marks the responsible cable.
+const HALO: (f32, f32) = (9.0, 0.26);
+
+/// How the scene is drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// Over a map, whose colours mean something else, cables do not show their tension.
+    pub over_map: bool,
+    /// The force at the end of the colours of tension, in N.
+    pub strongest: f64,
+    /// Without what can be read elsewhere.
+    pub compact: bool,
+}
 
 /// Draws what is under everything.
 pub fn background(painter: &Painter, visuals: &Visuals, view: &View) {
-    painter.rect_filled(view.rect, 0.0, visuals.extreme_bg_color);
+    painter.rect_filled(view.rect, 0.0, theme::tokens(visuals).canvas);
 }
 
-/// Draws everything but the background and the handles. Over a map, whose colours mean something else, cables do not
-/// show their tension.
-pub fn scene(painter: &Painter, visuals: &Visuals, layout: &Layout, scene: &Scene, over_map: bool) {
-    let view = &layout.view;
-    grid(painter, visuals, view, scene);
+/// Draws the workspace, the cables and the winches.
+pub fn scene(pen: &mut Pen<'_>, visuals: &Visuals, layout: &Layout, scene: &Scene, look: Look) {
+    let (view, painter, tokens) = (&layout.view, pen.painter, pen.tokens);
+    grid(pen, view, scene);
     for (cable, &winch) in scene.cables.iter().zip(&layout.winches) {
-        if cable.nodes.is_empty() {
+        if cable.nodes.is_empty() && !cable.marked {
             // No shape: the straight line, dashed, so that it reads as missing.
-            let line = [layout.platform, winch];
-            let stroke = Stroke::new(1.5, visuals.weak_text_color());
-            // Far outside the canvas the dashes would be without number.
-            if (line[1] - line[0]).length() < LONGEST_DASHED {
-                painter.extend(Shape::dashed_line(&line, stroke, 6.0, 6.0));
-            } else if line[0].is_finite() {
-                painter.line_segment(line, stroke);
-            }
+            dashed(painter, [layout.platform, winch], Stroke::new(1.5, tokens.mute), [6.0, 6.0]);
         }
-        if cable.marked {
-            let colour = theme::warning(visuals).gamma_multiply(0.30);
-            polyline(painter, view, &cable.nodes, Stroke::new(11.0, colour));
+        if cable.marked && !look.over_map {
+            polyline(painter, view, &cable.nodes, Stroke::new(HALO.0, tokens.critical.gamma_multiply(HALO.1)));
         }
-        if over_map {
-            polyline(painter, view, &cable.vibrating, Stroke::new(4.0, visuals.extreme_bg_color.gamma_multiply(0.6)));
+        if look.over_map {
+            polyline(painter, view, &cable.vibrating, Stroke::new(4.0, tokens.canvas.gamma_multiply(0.6)));
         }
-        polyline(painter, view, &cable.vibrating, Stroke::new(1.6, theme::accent(visuals)));
+        polyline(painter, view, &cable.vibrating, Stroke::new(1.25, tokens.accent));
     }
     // Over the vibration, so that the tension stays to be seen where a mode moves little.
     for cable in &scene.cables {
-        if over_map {
-            polyline(painter, view, &cable.nodes, Stroke::new(6.0, visuals.extreme_bg_color.gamma_multiply(0.85)));
-            polyline(painter, view, &cable.nodes, Stroke::new(2.5, visuals.strong_text_color()));
-            continue;
-        }
-        for (ends, &force) in cable.nodes.windows(2).zip(&cable.forces) {
-            let colour = theme::sequential(part(force, scene.tensions), visuals);
-            let ends = [view.pos_in_ui(ends[0]), view.pos_in_ui(ends[1])];
-            painter.line_segment(ends, Stroke::new(3.0, colour));
-        }
+        draw_cable(painter, visuals, view, cable, scene.unstable, look);
     }
     for (i, &at) in layout.winches.iter().enumerate() {
-        winch(painter, visuals, scene, i, at);
+        winch(pen, scene, i, at);
     }
-    velocity(painter, visuals, layout);
-    painter.circle(layout.platform, 11.0, theme::accent(visuals), Stroke::new(2.0, visuals.extreme_bg_color));
+}
+
+fn draw_cable(painter: &Painter, visuals: &Visuals, view: &View, cable: &CableLine, unstable: bool, look: Look) {
+    let tokens = theme::tokens(visuals);
+    if look.over_map {
+        polyline(painter, view, &cable.nodes, Stroke::new(5.5, tokens.canvas.gamma_multiply(0.85)));
+    }
+    if unstable && cable.marked {
+        let points: Vec<Pos2> = cable.nodes.iter().map(|&node| view.pos_in_ui(node)).collect();
+        if points.windows(2).map(|ends| (ends[1] - ends[0]).length()).sum::<f32>() < LONGEST_DASHED {
+            painter.extend(Shape::dashed_line(&points, Stroke::new(CABLE, tokens.critical), 9.0, 5.0));
+        } else {
+            painter.add(Shape::line(points, Stroke::new(CABLE, tokens.critical)));
+        }
+    } else if look.over_map {
+        let colour = if cable.marked { tokens.critical } else { tokens.text };
+        polyline(painter, view, &cable.nodes, Stroke::new(2.5, colour));
+    } else {
+        for (ends, &force) in cable.nodes.windows(2).zip(&cable.forces) {
+            let colour = tension_colour(force, look.strongest, visuals);
+            let ends = [view.pos_in_ui(ends[0]), view.pos_in_ui(ends[1])];
+            painter.line_segment(ends, Stroke::new(CABLE, colour));
+        }
+    }
+}
+
+/// The colour of a force where the colours go from 0 to `strongest`, both in N.
+pub fn tension_colour(force: f64, strongest: f64, visuals: &Visuals) -> Color32 {
+    theme::cable(if strongest > 0.0 { force / strongest } else { 0.0 }, visuals)
+}
+
+/// A cable that the pointer is on.
+pub fn hovered(painter: &Painter, view: &View, cable: &CableLine, tokens: &Tokens) {
+    polyline(painter, view, &cable.nodes, Stroke::new(HALO.0, tokens.accent.gamma_multiply(HALO.1)));
+}
+
+/// What becomes of the responsible cable, in words beside it.
+pub fn responsible(pen: &mut Pen<'_>, layout: &Layout, scene: &Scene, look: Look) {
+    let Some(first) = scene.critical.filter(|_| scene.unstable || !look.compact) else { return };
+    let Some(cable) = scene.cables.get(first.cable) else { return };
+    let does = match first.kind {
+        Instability::Flutter => "flutters",
+        Instability::Divergence => "bows out",
+    };
+    let when = if scene.unstable { "" } else { " first" };
+    let points: Vec<Pos2> = cable.nodes.iter().map(|&node| layout.view.pos_in_ui(node)).collect();
+    let places = |size| along(&points, &[0.55, 0.45, 0.65, 0.35, 0.75], 8.0, size);
+    pen.write(format!("cable {} {does}{when}", first.cable + 1), pen.tokens.critical, places);
 }
 
 fn polyline(painter: &Painter, view: &View, nodes: &[[f64; 2]], stroke: Stroke) {
@@ -70,22 +114,25 @@ fn polyline(painter: &Painter, view: &View, nodes: &[[f64; 2]], stroke: Stroke) 
     }
 }
 
-/// Where a force lies in the range of all.
-fn part(force: f64, tensions: Option<[f64; 2]>) -> f64 {
-    match tensions {
-        Some([low, high]) if high - low > 1e-9 * high => (force - low) / (high - low),
-        _ => 0.5,
+/// A dashed line of dashes and gaps of these lengths.
+pub fn dashed(painter: &Painter, line: [Pos2; 2], stroke: Stroke, [dash, gap]: [f32; 2]) {
+    if (line[1] - line[0]).length() < LONGEST_DASHED {
+        painter.extend(Shape::dashed_line(&line, stroke, dash, gap));
+    } else if line[0].is_finite() && line[1].is_finite() {
+        painter.line_segment(line, stroke);
     }
 }
 
 /// The workspace's frame, its grid lines and their metres.
-fn grid(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
+fn grid(pen: &Pen<'_>, view: &View, scene: &Scene) {
+    let (painter, tokens) = (pen.painter, pen.tokens);
     let frame = view.rect_in_ui(scene.frame);
-    let faint = Stroke::new(0.5, visuals.weak_text_color().gamma_multiply(0.35));
-    let step = round_step(80.0 / view.scale);
-    let text = visuals.weak_text_color();
-    let font = FontId::proportional(11.0);
-    for (i, vertical) in [(0, true), (1, false)] {
+    let faint = Stroke::new(1.0, tokens.line);
+    // Numbers stay on the canvas when the frame leaves it.
+    let below = (frame.max.y + 7.0).min(view.rect.max.y - 18.0);
+    let left = (frame.min.x - 8.0).max(view.rect.min.x + 34.0);
+    for (i, vertical, apart) in [(0, true, 100.0), (1, false, 50.0)] {
+        let step = round_step(apart / view.scale);
         let (low, high) = (scene.frame.low[i], scene.frame.high[i]);
         #[expect(clippy::cast_possible_truncation)] // A few dozen lines: the step follows the range and the zoom.
         let (first, last) = ((low / step - 1e-9).ceil() as i64, (high / step + 1e-9).floor() as i64);
@@ -95,101 +142,42 @@ fn grid(painter: &Painter, visuals: &Visuals, view: &View, scene: &Scene) {
             if vertical {
                 let x = view.pos_in_ui([at, 0.0]).x;
                 painter.vline(x, frame.y_range(), faint);
-                painter.text(Pos2::new(x, frame.max.y + 20.0), Align2::CENTER_TOP, label, font.clone(), text);
+                let label = if line == last { format!("{label} m") } else { label };
+                painter.text(Pos2::new(x, below), Align2::CENTER_TOP, label, pen.font.clone(), tokens.numbers);
             } else {
                 let y = view.pos_in_ui([0.0, at]).y;
                 painter.hline(frame.x_range(), y, faint);
-                painter.text(Pos2::new(frame.min.x - 18.0, y), Align2::RIGHT_CENTER, label, font.clone(), text);
+                // The winches' numbers are in the corners.
+                if y - frame.min.y > 10.0 && frame.max.y - y > 10.0 {
+                    painter.text(Pos2::new(left, y), Align2::RIGHT_CENTER, label, pen.font.clone(), tokens.numbers);
+                }
             }
         }
     }
-    painter.text(frame.max + Vec2::new(22.0, 20.0), Align2::LEFT_TOP, "m", font, text);
-    let stroke = Stroke::new(1.0, visuals.weak_text_color().gamma_multiply(0.7));
-    painter.rect_stroke(frame, 0.0, stroke, StrokeKind::Middle);
+    painter.rect_stroke(frame, 0.0, Stroke::new(1.0, tokens.frame), StrokeKind::Middle);
 }
 
 /// A coordinate without useless zeros.
-fn trimmed(value: f64) -> String {
+pub fn trimmed(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".into() } else { text.into() }
+    if text == "-0" { "0".into() } else { text.replace('-', "−") }
 }
 
 /// A winch with its cable's number: a filled square where the tension is prescribed, an open one at equilibrium.
-fn winch(painter: &Painter, visuals: &Visuals, scene: &Scene, i: usize, at: Pos2) {
+fn winch(pen: &mut Pen<'_>, scene: &Scene, i: usize, at: Pos2) {
+    let (painter, tokens) = (pen.painter, pen.tokens);
+    let cable = &scene.cables[i];
     let square = Rect::from_center_size(at, Vec2::splat(12.0));
-    let colour = visuals.text_color();
-    let fill = if scene.cables[i].prescribed { colour } else { visuals.extreme_bg_color };
-    painter.rect(square, 2.0, fill, Stroke::new(2.0, colour), StrokeKind::Middle);
-    let [x, y] = scene.cables[i].anchor;
-    let middle = scene.frame.middle();
-    let side = |value: f64, middle: f64| if value < middle { -1.0 } else { 1.0 };
-    let away = Vec2::new(side(x, middle.x), -side(y, middle.y));
-    let number = at + away * Vec2::new(16.0, 14.0);
-    painter.text(number, Align2::CENTER_CENTER, (i + 1).to_string(), FontId::proportional(14.0), colour);
-}
-
-fn velocity(painter: &Painter, visuals: &Visuals, layout: &Layout) {
-    let Layout { platform, ahead: direction, tip, .. } = *layout;
-    let start = platform + direction * 14.0;
-    let colour = theme::accent(visuals);
-    let across = direction.rot90();
-    let rim = Stroke::new(1.5, visuals.extreme_bg_color);
-    painter.line_segment([start, tip - direction * 8.0], Stroke::new(6.0, rim.color));
-    painter.line_segment([start, tip - direction * 8.0], Stroke::new(3.0, colour));
-    let head = vec![tip, tip - direction * 12.0 + across * 6.0, tip - direction * 12.0 - across * 6.0];
-    painter.add(Shape::convex_polygon(head, colour, rim));
-}
-
-/// What the arrow's length means: in the canvas's upper left corner, or beside the legend that is there.
-pub fn arrow_legend(painter: &Painter, visuals: &Visuals, rect: Rect, arrow: Arrow, legend: bool) {
-    let at = rect.min + Vec2::new(if legend { 12.0 + BAR + 14.0 } else { 12.0 }, 32.0);
-    painter.text(at, Align2::LEFT_TOP, arrow.legend(), FontId::proportional(12.0), visuals.text_color());
-}
-
-/// A dashed arrow in the direction with the lowest critical speed, with that speed in m/s.
-pub fn worst(painter: &Painter, visuals: &Visuals, layout: &Layout, direction: [f64; 2], speed: &str) {
-    let colour = theme::warning(visuals);
-    let platform = layout.platform;
-    let ahead = View::direction_in_ui(direction);
-    let across = ahead.rot90();
-    let tip = platform + ahead * 74.0;
-    painter.extend(Shape::dashed_line(
-        &[platform + ahead * 14.0, tip - ahead * 8.0],
-        Stroke::new(2.5, colour),
-        5.0,
-        4.0,
-    ));
-    let head = vec![tip, tip - ahead * 12.0 + across * 6.0, tip - ahead * 12.0 - across * 6.0];
-    painter.add(Shape::convex_polygon(head, visuals.extreme_bg_color, Stroke::new(2.0, colour)));
-    let text = format!("worst: {speed} m/s");
-    let galley = painter.layout_no_wrap(text, FontId::proportional(12.0), colour);
-    let middle = tip + ahead * (8.0 + 0.5 * (galley.size() * ahead.abs()).length());
-    let room = Rect::from_center_size(middle, galley.size());
-    painter.rect_filled(room.expand(2.0), 2.0, visuals.extreme_bg_color.gamma_multiply(0.8));
-    painter.galley(room.min, galley, colour);
-}
-
-/// The colour bar of the tensions, in the canvas's upper left corner.
-pub fn legend(painter: &Painter, visuals: &Visuals, rect: Rect, scene: &Scene) {
-    let Some([low, high]) = scene.tensions else { return };
-    let bar = Rect::from_min_size(rect.min + Vec2::new(12.0, 26.0), Vec2::new(BAR, 8.0));
-    let font = FontId::proportional(12.0);
-    let text = visuals.text_color();
-    painter.text(bar.min - Vec2::new(0.0, 3.0), Align2::LEFT_BOTTOM, "Cable tension", font.clone(), text);
-    let steps = 32_u8;
-    let step = bar.width() / f32::from(steps);
-    for i in 0..steps {
-        let colour: Color32 = theme::sequential(f64::from(i) / f64::from(steps - 1), visuals);
-        let min = bar.min + Vec2::new(f32::from(i) * step, 0.0);
-        painter.rect_filled(Rect::from_min_size(min, Vec2::new(step + 0.5, bar.height())), 0.0, colour);
-    }
-    painter.text(bar.left_bottom() + Vec2::new(0.0, 2.0), Align2::LEFT_TOP, newtons(low), font.clone(), text);
-    painter.text(bar.right_bottom() + Vec2::new(0.0, 2.0), Align2::RIGHT_TOP, newtons(high), font, text);
-}
-
-fn newtons(force: f64) -> String {
-    if force < 1e4 { format!("{force:.1} N") } else { format!("{:.1} kN", 1e-3 * force) }
+    let fill = if cable.law == TensionLaw::Equilibrium { tokens.canvas } else { tokens.text };
+    painter.rect(square, 2.0, fill, Stroke::new(2.0, tokens.text), StrokeKind::Middle);
+    let outward = if cable.anchor[0] < scene.frame.middle().x { -1.0 } else { 1.0 };
+    let number = at + Vec2::new(15.0 * outward, -13.0);
+    let colour = if cable.marked { tokens.critical } else { tokens.text };
+    let font = FontId::new(pen.font.size + 1.0, pen.font.family.clone());
+    painter.text(number, Align2::CENTER_CENTER, (i + 1).to_string(), font, colour);
+    pen.places.keep_free(square);
+    pen.places.keep_free(Rect::from_center_size(number, Vec2::splat(14.0)));
 }
 
 #[cfg(test)]
@@ -198,6 +186,6 @@ mod tests {
 
     #[test]
     fn coordinates_have_no_useless_zeros() {
-        assert_eq!([trimmed(2.5), trimmed(-0.0), trimmed(10.0)], ["2.5", "0", "10"]);
+        assert_eq!([trimmed(2.5), trimmed(-0.0), trimmed(10.0), trimmed(-4.0)], ["2.5", "0", "10", "−4"]);
     }
 }

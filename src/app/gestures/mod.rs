@@ -1,18 +1,25 @@
-//! What hands do before egui hears of it: nothing of a drag or of what is typed is lost when frames are slow, and a finger
-//! that moves up or down scrolls, whatever it began on.
+//! What hands do before egui hears of it: nothing of a drag or of what is typed is lost when frames are slow, a finger
+//! that moves up or down scrolls, whatever it began on, and keys go from region to region and out of the app.
 
+mod focus;
 mod queue;
 #[cfg(target_arch = "wasm32")]
 mod web;
 
 use eframe::egui::{Context, IdSalt, LayerId, Plugin, Pos2, RawInput, Rect, Response, ScrollArea, Ui};
+use focus::Focus;
 use queue::Queue;
 
 /// Registers what is in here with egui.
 pub fn install(context: &Context) {
     context.add_plugin(Gestures::default());
     #[cfg(target_arch = "wasm32")]
-    web::listen();
+    {
+        context.add_plugin(Focus::new(Some(web::leave)));
+        web::listen();
+    }
+    #[cfg(not(target_arch = "wasm32"))]
+    context.add_plugin(Focus::new(None));
 }
 
 #[derive(Default)]
@@ -20,6 +27,8 @@ struct Gestures {
     queue: Queue,
     /// Where a finger may turn something or scroll, as far as it was drawn in this pass.
     turning: Vec<(LayerId, Rect)>,
+    /// Whether a number is typed in this pass.
+    number: bool,
 }
 
 impl Plugin for Gestures {
@@ -46,7 +55,17 @@ impl Plugin for Gestures {
         if self.queue.is_waiting() {
             ui.ctx().request_repaint();
         }
+        let number = std::mem::take(&mut self.number);
+        #[cfg(target_arch = "wasm32")]
+        web::keyboard_for(number);
+        #[cfg(not(target_arch = "wasm32"))]
+        let _ = number; // Only browsers have keyboards on the screen.
     }
+}
+
+/// Says that a number is typed, so that a phone shows the keyboard for numbers.
+pub fn types_a_number(ui: &Ui) {
+    ui.ctx().with_plugin(|gestures: &mut Gestures| gestures.number = true);
 }
 
 /// A finger on this may turn it or scroll what it is in: up and down it scrolls, sideways it turns, a tap is a tap. A

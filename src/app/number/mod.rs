@@ -209,6 +209,7 @@ impl Control<'_> {
             state.cursor.set_char_range(Some(CCursorRange::select_all_str(&before)));
             state.store(ui.ctx(), id);
         }
+        gestures::types_a_number(ui);
         let response = ui.add(edit);
         if typing.text != before {
             typing.refused = None;
@@ -302,7 +303,7 @@ impl Control<'_> {
     }
 
     /// Steps of an arrow key further, to a number with few digits.
-    fn stepped(&self, value: f64, steps: f64) -> f64 {
+    pub fn stepped(&self, value: f64, steps: f64) -> f64 {
         let there = self.unit.shown(value) + steps * self.step;
         self.unit.to_stored(best_in_range_f64(there - 0.1 * self.step, there + 0.1 * self.step))
     }

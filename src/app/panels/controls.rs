@@ -1,122 +1,208 @@
-//! Sliders with typed values for everything that can be turned.
+//! The controls: groups of numbers that fold, each with its values in its title while it is folded.
 
-use eframe::egui::{CollapsingHeader, ComboBox, Grid, Label, RichText, Ui};
+use eframe::egui::{
+    Align, Align2, FontId, Layout, Response, RichText, Role, Sense, TextStyle, TextWrapMode, Ui, Vec2, WidgetInfo,
+    WidgetText,
+};
 
-use super::robot;
-use super::rows::{Sheet, rows};
+use super::cables;
+use super::rows::{Sheet, in_a_row, rows};
+use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::facts::Facts;
-use crate::app::fields;
+use crate::app::fields::{self, Field};
+use crate::app::icons::{self, Icon};
 use crate::app::meaning::Explain as _;
 use crate::app::number;
-use crate::app::state::{Document, Session};
-use crate::robot::{Linearisation, Strain, TensionLaw};
-use crate::scenario::{Parameter, Scenario, presets};
+use crate::app::state::{Sections, Session};
+use crate::app::theme;
+use crate::app::words::{self, Word};
+use crate::robot::{Linearisation, Strain};
+use crate::scenario::{Parameter, Scenario};
 
-/// Draws the controls; a change becomes one command.
+/// Which groups are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Groups {
+    /// All of them.
+    All,
+    /// The motion alone, without a title.
+    Motion,
+    /// All but the motion.
+    Robot,
+}
+
+/// Draws the groups; a change becomes one command.
 pub fn ui(
+    sections: &mut Sections,
     session: &mut Session,
     ui: &mut Ui,
-    Facts { document, settings, .. }: Facts<'_>,
+    (groups, touch): (Groups, bool),
+    facts: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
+    let Facts { document, settings, .. } = facts;
     let edited = document.scenario.clone();
-    let mut sheet = Sheet { edited, original: &document.original, revealed: session.revealed, settings };
-    examples(ui, document, commands);
-    group(ui, "Motion", &mut sheet, &fields::MOTION);
-    group(ui, "Cables and platform", &mut sheet, &fields::BODY);
-    group(ui, "Damping and mesh", &mut sheet, &fields::MODEL);
-    choices(ui, &mut sheet.edited);
-    tensions(ui, &mut sheet);
-    robot::ui(&mut session.unlocked, ui, &mut sheet);
+    let mut sheet = Sheet { edited, original: &document.original, revealed: session.revealed, settings, touch };
+    reveal(sections, session.revealed);
+    if groups == Groups::Motion {
+        rows(ui, &mut sheet, &fields::MOTION);
+    } else if groups == Groups::All {
+        let summary = values(&sheet, &[Parameter::Speed]);
+        group(&mut sections.motion, ui, "Motion", &summary, touch, |ui| rows(ui, &mut sheet, &fields::MOTION));
+    }
+    if groups != Groups::Motion {
+        let count = sheet.edited.cables.len().to_string();
+        group(&mut sections.cables, ui, "Cables", &count, touch, |ui| {
+            cables::ui(session, ui, &mut sheet, facts, commands);
+        });
+        let summary = values(&sheet, &fields::ROPE);
+        group(&mut sections.rope, ui, "Rope", &summary, touch, |ui| rows(ui, &mut sheet, &fields::ROPE));
+        let summary = values(&sheet, &fields::PLATFORM);
+        group(&mut sections.platform, ui, "Mass and gravity", &summary, touch, |ui| {
+            rows(ui, &mut sheet, &fields::PLATFORM);
+        });
+        let summary = values(&sheet, &fields::DAMPING);
+        group(&mut sections.damping, ui, "Damping", &summary, touch, |ui| rows(ui, &mut sheet, &fields::DAMPING));
+        let summary = model(&sheet.edited);
+        group(&mut sections.model, ui, "Model", &summary, touch, |ui| {
+            choices(ui, &mut sheet.edited, commands);
+            rows(ui, &mut sheet, &[Parameter::Elements]);
+        });
+    }
     session.revealed = sheet.revealed;
     if sheet.edited != document.scenario {
         commands.push(Command::Edit(Box::new(sheet.edited)));
     }
 }
 
-fn examples(ui: &mut Ui, document: &Document, commands: &mut Vec<Command>) {
-    ui.horizontal(|ui| {
-        let label = ui.label("Robot");
-        let name = document.scenario.name.as_deref().unwrap_or("Unnamed robot");
-        let room = ui.available_width();
-        let list = ComboBox::from_id_salt("examples").selected_text(name).truncate().width(room.min(210.0));
-        let list = list.show_ui(ui, |ui| {
-            for preset in presets::PRESETS {
-                let chosen = document.scenario.name.as_deref() == Some(preset.title);
-                if ui.selectable_label(chosen, preset.title).explained(preset.description).clicked() {
-                    commands.push(Command::Load(Box::new(preset.scenario())));
-                }
-            }
-        });
-        list.response.labelled_by(label.id);
-    });
-    let chosen = presets::PRESETS.iter().find(|preset| document.scenario.name.as_deref() == Some(preset.title));
-    if let Some(preset) = chosen {
-        ui.add(Label::new(RichText::new(preset.description).weak().size(12.0)).wrap());
+/// The speed alone, as a presentation has it.
+pub fn speed(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    alone(ui, facts, commands, |ui, sheet| rows(ui, sheet, &[Parameter::Speed]));
+}
+
+/// The speed alone in one row, as a frame has it.
+pub fn speed_in_a_row(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    alone(ui, facts, commands, |ui, sheet| in_a_row(ui, sheet, Parameter::Speed));
+}
+
+fn alone(
+    ui: &mut Ui,
+    Facts { document, settings, .. }: Facts<'_>,
+    commands: &mut Vec<Command>,
+    content: impl FnOnce(&mut Ui, &mut Sheet<'_>),
+) {
+    let edited = document.scenario.clone();
+    let mut sheet = Sheet { edited, original: &document.original, revealed: None, settings, touch: false };
+    content(ui, &mut sheet);
+    if sheet.edited != document.scenario {
+        commands.push(Command::Edit(Box::new(sheet.edited)));
     }
 }
 
-fn group(ui: &mut Ui, title: &str, sheet: &mut Sheet<'_>, list: &[Parameter]) {
-    ui.add_space(6.0);
-    ui.label(RichText::new(title).strong());
-    rows(ui, sheet, list);
+/// Opens the group of the number that is to come into view.
+fn reveal(sections: &mut Sections, revealed: Option<Parameter>) {
+    let Some(parameter) = revealed else { return };
+    let of = |list: &[Parameter]| list.contains(&parameter);
+    if of(&fields::MOTION) {
+        sections.motion = true;
+    } else if of(&fields::ROPE) {
+        sections.rope = true;
+    } else if of(&fields::PLATFORM) {
+        sections.platform = true;
+    } else if of(&fields::DAMPING) {
+        sections.damping = true;
+    } else if parameter == Parameter::Elements {
+        sections.model = true;
+    } else {
+        sections.cables = true;
+    }
 }
 
-fn choices(ui: &mut Ui, edited: &mut Scenario) {
-    ui.add_space(4.0);
-    Grid::new("choices").num_columns(2).show(ui, |ui| {
-        ui.label("Stiffness").explained("The elastic stiffness that a small vibration meets.");
-        ui.horizontal(|ui| {
+/// The values of a group in a few words.
+fn values(sheet: &Sheet<'_>, list: &[Parameter]) -> String {
+    let frame = canvas::frame(&sheet.edited);
+    let value = |parameter: &Parameter| {
+        let field = Field::of(*parameter, frame).in_units_of(sheet.settings);
+        let (unit, value) = (field.unit(), parameter.get(&sheet.edited));
+        let text = unit.with_name(&number::rounded(unit.shown(value), 3));
+        match parameter {
+            Parameter::Alpha | Parameter::Beta | Parameter::Gravity => format!("{} {text}", field.symbol),
+            _ => text,
+        }
+    };
+    list.iter().map(value).collect::<Vec<_>>().join(" · ")
+}
+
+fn model(scenario: &Scenario) -> String {
+    let stiffness = match scenario.linearisation {
+        Linearisation::Secant => "secant",
+        Linearisation::Tangent => "tangent",
+    };
+    let strain = match scenario.cable.strain {
+        Strain::Green => "Green",
+        Strain::Engineering => "engineering",
+    };
+    format!("{stiffness} · {strain} · n {}", scenario.elements_per_cable)
+}
+
+/// A group with a title that opens and folds it.
+fn group(open: &mut bool, ui: &mut Ui, title: &str, summary: &str, touch: bool, content: impl FnOnce(&mut Ui)) {
+    let height = if touch { 48.0 } else { 36.0 };
+    if heading(*open, ui, title, summary, height).clicked() {
+        *open = !*open;
+    }
+    if *open {
+        ui.push_id(title, content);
+        ui.add_space(8.0);
+    }
+    let tokens = theme::tokens(ui.visuals());
+    let y = ui.cursor().min.y;
+    ui.painter().hline(ui.clip_rect().x_range(), y, (1.0, tokens.line));
+}
+
+fn heading(open: bool, ui: &mut Ui, title: &str, summary: &str, height: f32) -> Response {
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), height), Sense::click());
+    response.widget_info(|| WidgetInfo {
+        current_text_value: (!open).then(|| summary.to_owned()),
+        ..WidgetInfo::selected(Role::Button, true, open, title)
+    });
+    let tokens = theme::tokens(ui.visuals());
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect.shrink2(Vec2::new(0.0, 4.0)), 6.0, tokens.field);
+    }
+    let icon = if open { Icon::ChevronDown } else { Icon::ChevronRight };
+    icons::paint(ui.painter(), icon, rect.left_center() + Vec2::new(8.0, 0.0), tokens.weak);
+    let font = TextStyle::Body.resolve(ui.style());
+    let at = rect.left_center() + Vec2::new(22.0, 0.0);
+    let name = ui.painter().text(at, Align2::LEFT_CENTER, title, font, tokens.text);
+    if !open || title == "Cables" {
+        let font = FontId::proportional(theme::CAPTION);
+        let text = RichText::new(summary).color(tokens.weak);
+        let room = rect.max.x - name.max.x - 12.0;
+        let galley = WidgetText::from(text).into_galley(ui, Some(TextWrapMode::Truncate), room, font);
+        let place = Align2::RIGHT_CENTER.anchor_size(rect.right_center(), galley.size());
+        ui.painter().galley(place.min, galley, tokens.weak);
+    }
+    response
+}
+
+/// Stiffness and strain, which are words and not numbers.
+fn choices(ui: &mut Ui, edited: &mut Scenario, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        words::link(ui, Word::Stiffness, "Stiffness", commands);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.radio_value(&mut edited.linearisation, Linearisation::Tangent, "Tangent")
+                .explained("(N/λ)(I − e⊗e) + N'(λ) e⊗e: the full derivative, the paper's Eq. 14");
             ui.radio_value(&mut edited.linearisation, Linearisation::Secant, "Secant")
                 .explained("(N/λ) I: the paper's simplification, its Eq. 15");
-            ui.radio_value(&mut edited.linearisation, Linearisation::Tangent, "Tangent")
-                .explained("(N/λ)(I − e⊗e) + N'(λ) e⊗e: the full derivative, its Eq. 14");
         });
-        ui.end_row();
-        ui.label("Strain").explained("The strain measure of the axial law N(λ).");
-        ui.horizontal(|ui| {
+    });
+    ui.horizontal(|ui| {
+        words::link(ui, Word::Strain, "Strain", commands);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.radio_value(&mut edited.cable.strain, Strain::Engineering, "Engineering").explained("N = EA (λ − 1)");
             ui.radio_value(&mut edited.cable.strain, Strain::Green, "Green")
                 .explained("N = ½ EA (λ³ − λ), from the energy ½ EA ε² with ε = ½ (λ² − 1)");
-            ui.radio_value(&mut edited.cable.strain, Strain::Engineering, "Engineering").explained("N = EA (λ − 1)");
         });
-        ui.end_row();
     });
-}
-
-/// The prescribed cables: a constant, or the six coefficients of a law.
-fn tensions(ui: &mut Ui, sheet: &mut Sheet<'_>) {
-    ui.add_space(6.0);
-    ui.label(RichText::new("Tension of the stiffening cables").strong());
-    for cable in 0..sheet.edited.cables.len() {
-        let law = sheet.edited.cables[cable].tension;
-        let kind = match law {
-            TensionLaw::Equilibrium => continue,
-            TensionLaw::Constant(tension) => format!("{} N", number::brief(tension)),
-            TensionLaw::Hypot { .. } => "by law".into(),
-        };
-        let open = matches!(sheet.revealed, Some(Parameter::Tension(of) | Parameter::Horizontal(of, _)) if of == cable)
-            .then_some(true);
-        let header =
-            CollapsingHeader::new(format!("Cable {}: {kind}", cable + 1)).id_salt(("tension", cable)).open(open);
-        header.show(ui, |ui| {
-            ui.horizontal(|ui| {
-                let tension = law.at(sheet.edited.motion.position);
-                let constant = matches!(law, TensionLaw::Constant(_));
-                if ui.radio(constant, "Constant").clicked() && !constant {
-                    sheet.edited.cables[cable].tension = TensionLaw::Constant(tension);
-                }
-                if ui.radio(!constant, "Law").explained(fields::LAW).clicked() && constant {
-                    let vertical = [0.0, 0.0, 0.0];
-                    sheet.edited.cables[cable].tension =
-                        TensionLaw::Hypot { horizontal: [tension, 0.0, 0.0], vertical };
-                }
-                ui.weak(format!("{tension:.1} N here"));
-            });
-            match sheet.edited.cables[cable].tension {
-                TensionLaw::Constant(_) => rows(ui, sheet, &[Parameter::Tension(cable)]),
-                _ => rows(ui, sheet, &fields::law(cable)),
-            }
-        });
-    }
 }

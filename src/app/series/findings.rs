@@ -227,7 +227,8 @@ mod tests {
             points.push((at, verdict));
         }
         let range = [points[0].0, points[count - 1].0];
-        Along { abscissa: Abscissa::X, points, range, from: [range[0], 0.0], direction: [1.0, 0.0] }
+        let (from, wave_limits) = ([range[0], 0.0], Vec::new());
+        Along { abscissa: Abscissa::X, points, wave_limits, range, from, direction: [1.0, 0.0] }
     }
 
     /// The stretches that a sentence names before or after `words`: pairs of numbers, read as a person would.
@@ -300,8 +301,9 @@ mod tests {
                 (x, Verdict::Critical(critical(9.0, frequency_hz, 0)))
             })
             .collect();
-        let along =
-            Along { abscissa: Abscissa::X, points, range: [-5.0, 5.0], from: [-5.0, 0.0], direction: [1.0, 0.0] };
+        let (from, wave_limits) = ([-5.0, 0.0], Vec::new());
+        let (abscissa, direction) = (Abscissa::X, [1.0, 0.0]);
+        let along = Along { abscissa, points, wave_limits, range: [-5.0, 5.0], from, direction };
         let text = along.findings().expect("a finding");
         assert_eq!(text, "From x = 0.0 m to x = 3.0 m the frequency rises, as the paper found toward the border.");
     }

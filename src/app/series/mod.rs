@@ -26,15 +26,6 @@ pub enum Abscissa {
 }
 
 impl Abscissa {
-    /// The axis's label.
-    pub fn label(self) -> &'static str {
-        match self {
-            Self::X => "x (m)",
-            Self::Y => "y (m)",
-            Self::Along => "Way along the line (m)",
-        }
-    }
-
     /// A place in words.
     pub fn place(self, at: f64, decimals: usize) -> String {
         match self {
@@ -52,6 +43,8 @@ pub struct Along {
     pub abscissa: Abscissa,
     /// Place in m and what is known there, from left to right.
     pub points: Vec<(f64, Verdict)>,
+    /// The wave limit at each of these places, in m/s.
+    pub wave_limits: Vec<Option<f64>>,
     /// The whole line, in m.
     pub range: [f64; 2],
     from: [f64; 2],
@@ -68,15 +61,21 @@ impl Along {
             [0.0, _] => Abscissa::Y,
             _ => Abscissa::Along,
         };
-        let mut along = Self { abscissa, points: Vec::new(), range: [0.0, 0.0], from: line.from.into(), direction };
+        let (points, wave_limits) = (Vec::new(), Vec::new());
+        let mut along = Self { abscissa, points, wave_limits, range: [0.0, 0.0], from: line.from.into(), direction };
         let ends = [line.from, line.to].map(|end| along.place(end.into()));
         along.range = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+        let mut answers: Vec<(f64, &Verdict, Option<f64>)> = Vec::new();
         for (index, answer) in known.places.iter().enumerate() {
-            if let Some(Answer::Critical { verdict, .. }) = answer {
-                along.points.push((along.place(line.position(index).into()), verdict.clone()));
+            if let Some(Answer::Critical { verdict, wave_limit, .. }) = answer {
+                answers.push((along.place(line.position(index).into()), verdict, *wave_limit));
             }
         }
-        along.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        answers.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (at, verdict, wave_limit) in answers {
+            along.points.push((at, verdict.clone()));
+            along.wave_limits.push(wave_limit);
+        }
         Some(along)
     }
 
@@ -89,6 +88,44 @@ impl Along {
                 (position[0] - self.from[0]) * self.direction[0] + (position[1] - self.from[1]) * self.direction[1]
             }
         }
+    }
+
+    /// The pose at a place of the line, for a platform that is on it at `position`.
+    pub fn moved(&self, [x, y]: [f64; 2], at: f64) -> [f64; 2] {
+        match self.abscissa {
+            Abscissa::X => [at, y],
+            Abscissa::Y => [x, at],
+            Abscissa::Along => {
+                let way = at - self.place([x, y]);
+                [x + way * self.direction[0], y + way * self.direction[1]]
+            }
+        }
+    }
+
+    /// The place that is nearest to one on the line, by its number.
+    pub fn nearest(&self, at: f64) -> Option<usize> {
+        let distances = self.points.iter().map(|(place, _)| (place - at).abs()).enumerate();
+        distances.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(i, _)| i)
+    }
+
+    /// The critical speed as points (m, m/s), whatever mode comes first, as stretches on which it does not jump: where
+    /// another mode comes first it goes on, with a corner.
+    pub fn speeds(&self) -> Vec<Vec<[f64; 2]>> {
+        let samples: Vec<Option<Sample>> =
+            self.points.iter().map(|(at, verdict)| sample_of_speed(*at, Some(verdict))).collect();
+        let point = |i: usize| samples[i].map(|sample| [sample.at, sample.values[0]]);
+        segments(&samples).into_iter().map(|segment| segment.filter_map(point).collect()).collect()
+    }
+
+    /// The same without gaps where it jumps; it ends where nothing is critical.
+    pub fn critical(&self) -> Vec<Vec<[f64; 2]>> {
+        runs(self.points.iter().map(|(at, verdict)| Some([*at, verdict.critical()?.speed])))
+    }
+
+    /// The wave limit as points (m, m/s); it ends where there is none.
+    pub fn waves(&self) -> Vec<Vec<[f64; 2]>> {
+        let places = self.points.iter().zip(&self.wave_limits);
+        runs(places.map(|((at, _), limit)| limit.map(|limit| [*at, limit])))
     }
 
     /// What is known at each place: critical speed in m/s and frequency in Hz; `None` where nothing is critical.
@@ -125,11 +162,29 @@ impl Along {
     }
 }
 
+/// Neighbours that are all there, run by run.
+fn runs(points: impl Iterator<Item = Option<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
+    let mut runs = vec![Vec::new()];
+    for point in points {
+        match (point, runs.last_mut()) {
+            (Some(point), Some(run)) => run.push(point),
+            _ => runs.push(Vec::new()),
+        }
+    }
+    runs.retain(|run| !run.is_empty());
+    runs
+}
+
 /// What a place of a curve of critical speeds shows, where there is one.
 fn sample(at: f64, verdict: Option<&Verdict>) -> Option<Sample> {
     let critical = verdict?.critical()?;
     let (values, mode) = ([critical.speed, critical.frequency_hz()], Some((critical.kind, critical.cable)));
     Some(Sample { at, values, mode })
+}
+
+/// The same of the speed alone, whatever mode it belongs to.
+fn sample_of_speed(at: f64, verdict: Option<&Verdict>) -> Option<Sample> {
+    Some(Sample { at, values: [verdict?.critical()?.speed, 0.0], mode: None })
 }
 
 /// The directions of a polar diagram: the unit vector and what is known, counterclockwise.
@@ -142,8 +197,8 @@ pub fn directions<'a>(known: &'a Known) -> Vec<([f64; 2], Option<&'a Verdict>)> 
     known.places.iter().enumerate().map(place).collect()
 }
 
-/// The stretches of a polar diagram with one mode each, as points (critical speed times direction, in m/s). Once around
-/// and back to the first direction; what is not known yet is no gap.
+/// The stretches of a polar diagram on which the critical speed does not jump, as points (critical speed times direction,
+/// in m/s). Once around and back to the first direction; what is not known yet is no gap.
 pub fn around(known: &Known) -> Vec<Vec<[f64; 2]>> {
     let all = directions(known);
     let known: Vec<([f64; 2], &Verdict)> =
@@ -156,13 +211,29 @@ pub fn around(known: &Known) -> Vec<Vec<[f64; 2]>> {
             // Counterclockwise by less than a whole turn.
             turned += (degrees(*direction) - degrees(before)).rem_euclid(360.0);
         }
-        samples.push(sample(turned, Some(verdict)));
+        samples.push(sample_of_speed(turned, Some(verdict)));
     }
     let point = |i: usize| {
         let ([x, y], verdict) = known[i];
         verdict.critical().map(|critical| [critical.speed * x, critical.speed * y])
     };
     segments(&samples).into_iter().map(|segment| segment.filter_map(point).collect()).collect()
+}
+
+/// The wave limit in every direction as points (limit times direction, in m/s), once around and back to the first
+/// direction; it ends where there is none.
+pub fn waves_around(known: &Known) -> Vec<Vec<[f64; 2]>> {
+    let Study::Polar { count, .. } = known.wish.study else { return Vec::new() };
+    let all = known.places.iter().enumerate().chain(known.places.first().map(|first| (0, first)));
+    // What is not known yet is no gap.
+    let answered = all.filter_map(|(i, answer)| Some((i, answer.as_ref()?)));
+    runs(answered.map(|(i, answer)| match answer {
+        Answer::Critical { wave_limit: Some(limit), .. } => {
+            let [x, y]: [f64; 2] = compass(i, count).into();
+            Some([limit * x, limit * y])
+        }
+        _ => None,
+    }))
 }
 
 /// The direction with the lowest critical speed, and that speed in m/s.
@@ -359,6 +430,41 @@ mod tests {
         assert_eq!(across.abscissa, Abscissa::Along);
         assert!((across.place([0.0, 0.0]) - 50.0_f64.sqrt()).abs() < 1e-9);
         assert_eq!(across.infeasible(), [across.range]);
+    }
+
+    #[test]
+    fn the_wave_limit_and_the_way_belong_to_their_places() {
+        let with_waves = |i: usize| {
+            let Answer::Critical { direction, verdict, .. } = critical(9.0, 1.0) else { panic!("a critical speed") };
+            Some(Answer::Critical { direction, verdict, wave_limit: (i != 3).then_some(i as f64) })
+        };
+        // From right to left: the first answer is the rightmost place.
+        let along = Along::new(&known(line([-1.0, 0.0]), with_waves)).expect("a line");
+        assert_eq!(along.wave_limits[20], Some(0.0));
+        let waves = along.waves();
+        assert_eq!((waves.len(), waves[0].len(), waves[1].len()), (2, 17, 3));
+        assert_eq!(waves[1][0], [8.0, 2.0]);
+        assert_eq!((along.critical().len(), along.speeds().len()), (1, 1));
+        // Another cable bends the curve of the speed; only a jump breaks it.
+        let other = |i: usize, jump: f64| {
+            let far = i as f64 - 10.0;
+            let Answer::Critical { direction, mut verdict, .. } = critical(9.0 + 0.1 * far.abs(), 1.0) else {
+                panic!()
+            };
+            if let (Verdict::Critical(critical), true) = (&mut verdict, i > 10) {
+                (critical.cable, critical.speed) = (2, critical.speed + jump);
+            }
+            Some(Answer::Critical { direction, verdict, wave_limit: None })
+        };
+        let bent = Along::new(&known(line([1.0, 0.0]), |i| other(i, 0.0))).expect("a line");
+        assert_eq!((bent.speeds().len(), bent.stretches(|c| c.speed).len()), (1, 2));
+        let broken = Along::new(&known(line([1.0, 0.0]), |i| other(i, 4.0))).expect("a line");
+        assert_eq!((broken.speeds().len(), broken.critical().len()), (2, 1));
+        assert_eq!((along.nearest(-8.7), along.moved([3.0, 0.5], -2.0)), (Some(1), [-2.0, 0.5]));
+        let across = Along::new(&known(line([1.0, 1.0]), |_| Some(nothing()))).expect("a line");
+        let [x, y] = across.moved([0.0, 0.0], across.place([2.0, 2.0]));
+        assert!((x - 2.0).abs() < 1e-9 && (y - 2.0).abs() < 1e-9);
+        assert!(across.critical().is_empty() && across.waves().is_empty());
     }
 
     #[test]

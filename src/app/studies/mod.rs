@@ -17,8 +17,6 @@ use std::collections::VecDeque;
 use crate::compute::protocol::{Revision, StudyJob, StudyNews, Topic};
 use crate::study::Answer;
 
-/// All topics that have studies. The joining of modes is kept apart, in [`Joined`].
-pub const TOPICS: [Topic; 5] = [Topic::Line, Topic::Map, Topic::Polar, Topic::Campbell, Topic::Convergence];
 /// So many finished studies of each topic are remembered, for undone changes and tabs that are opened again.
 const REMEMBERED: usize = 4;
 
@@ -111,23 +109,23 @@ struct Subject {
     finished: VecDeque<Known>,
 }
 
-/// The studies of all topics.
+/// The studies of all topics but one: the joining of modes is kept apart, in [`Joined`].
 #[derive(Debug, Default)]
 pub struct Studies {
     revision: Revision,
-    subjects: [Subject; TOPICS.len()],
+    subjects: [Subject; Topic::ALL.len()],
     broken: Option<String>,
 }
 
 fn place(topic: Topic) -> usize {
-    TOPICS.iter().position(|other| *other == topic).unwrap_or_default()
+    Topic::ALL.iter().position(|other| *other == topic).unwrap_or_default()
 }
 
 impl Studies {
     /// Notes what is wanted now, at most one study of each topic, and says what is to be done for it.
     pub fn want(&mut self, mut wishes: Vec<Wish>) -> Vec<Order> {
         let mut orders = Vec::new();
-        for topic in TOPICS {
+        for topic in Topic::ALL {
             let wish = wishes.iter().position(|wish| wish.topic() == topic).map(|i| wishes.swap_remove(i));
             let subject = &self.subjects[place(topic)];
             let known = subject.newest.as_ref().map(|known| &known.wish);

@@ -30,7 +30,7 @@ impl Owners {
     fn note(&mut self, owner: Owner, order: &Order) -> bool {
         match order {
             Order::Want(job) => {
-                self.0.insert(Topic::of(&job.study), owner);
+                self.0.insert(job.study.topic(), owner);
                 true
             }
             Order::Cancel(topic) => {

@@ -2,7 +2,7 @@
 
 use crate::app::state::{MapQuantity, Plot, UiState};
 use crate::compute::protocol::Topic;
-use crate::robot::Robot;
+use crate::robot::{Damping, Linearisation, Robot};
 use crate::scenario::Scenario;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::scenario::v1::Motion;
@@ -12,6 +12,8 @@ use crate::study::{Directions, Grid, Line, Mapped, Study, workspace};
 const MAP_INTERVALS: f64 = 800.0;
 /// A map's least and most points in a row or column.
 const MAP_POINTS: [f64; 2] = [5.0, 161.0];
+/// The border of the feasible region is looked for up to this part of the workspace's size from its edge.
+const INSET: f64 = 1e-3;
 /// Places along the line.
 const LINE_POINTS: usize = 161;
 /// Directions of the polar diagram.
@@ -44,6 +46,11 @@ impl Wish {
         if matches!(study, Study::Elements { .. }) {
             scenario.elements_per_cable = ANY_ELEMENTS;
         }
+        // Statics know nothing of what moves.
+        if matches!(study, Study::Border { .. }) {
+            scenario.damping = Damping { alpha: 0.0, beta: 0.0 };
+            scenario.linearisation = Linearisation::Secant;
+        }
         Self { scenario, study }
     }
 
@@ -56,56 +63,57 @@ impl Wish {
 
     /// What it is about.
     pub fn topic(&self) -> Topic {
-        Topic::of(&self.study)
+        self.study.topic()
     }
 
-    /// How many answers give a first picture of it: of a map every fourth point of every fourth row.
+    /// How many answers give a first picture of it: of a map every fourth point of every fourth row. A border with gaps is
+    /// none.
     pub fn first_picture(&self) -> usize {
         match &self.study {
             Study::Map { grid, .. } => grid.nx.div_ceil(4) * grid.ny.div_ceil(4),
+            Study::Border { grid } => grid.ny,
             study => study.len().div_ceil(4),
         }
     }
 }
 
-/// The studies of what is open: the map where it is switched on, and that of the plot on show; where nothing is under way
-/// that could be disturbed, `at_rest`, also which digits of the critical speed are certain. `critical` is the last
-/// critical speed known, in m/s.
-pub fn wanted(
-    scenario: &Scenario,
-    state: &UiState,
-    plot: Option<Plot>,
-    critical: Option<f64>,
-    at_rest: bool,
-) -> Vec<Wish> {
+/// The border of the feasible region, which whoever drags out of it wants to see at once, and the studies of what is open:
+/// the map where it is switched on, and those of the plots on show, of each topic one; where nothing is under way that
+/// could be disturbed, `at_rest`, also which digits of the critical speed are certain. `critical` is the last critical
+/// speed known, in m/s.
+pub fn wanted(scenario: &Scenario, state: &UiState, plots: &[Plot], critical: Option<f64>, at_rest: bool) -> Vec<Wish> {
     let Ok((robot, motion)) = scenario.to_robot() else { return Vec::new() };
     let (position, direction) = (motion.position(), motion.direction());
     let limit = DEFAULT_MAX_SPEED;
-    let mut wishes = Vec::new();
+    let [nx, ny] = map_points(&robot);
+    let grid = Grid::of(&robot, nx, ny);
+    let mut wishes = vec![Wish::new(scenario, Study::Border { grid: within(grid) })];
     if state.map.on {
-        let [nx, ny] = map_points(&robot);
         let directions =
             if state.map.worst { Directions::Worst(Directions::WORST_OF) } else { Directions::One(direction) };
         let mapped = match state.map.quantity {
             MapQuantity::Growth => Mapped::Growth { speed: motion.speed() },
             _ => Mapped::Critical { limit },
         };
-        wishes.push(Wish::new(scenario, Study::Map { grid: Grid::of(&robot, nx, ny), directions, mapped }));
+        wishes.push(Wish::new(scenario, Study::Map { grid, directions, mapped }));
     }
-    let meshes = match plot {
-        Some(Plot::Mesh) => Some(meshes(scenario.elements_per_cable)),
-        _ => (at_rest && critical.is_some()).then(|| fine(scenario.elements_per_cable)),
+    let shows = |list: &[Plot]| list.iter().any(|plot| plots.contains(plot));
+    if shows(&[Plot::Line]) {
+        wishes.push(Wish::new(scenario, Study::Line { line: Line::through(&robot, &motion, LINE_POINTS), limit }));
+    }
+    if shows(&[Plot::Directions]) {
+        wishes.push(Wish::new(scenario, Study::Polar { position, count: DIRECTIONS, limit }));
+    }
+    // Eigenvalues leave traces from rest on.
+    if shows(&[Plot::Campbell, Plot::Eigenvalues]) {
+        let to = highest_speed(motion.speed(), critical);
+        wishes.push(Wish::new(scenario, Study::Speeds { position, direction, to, count: SPEEDS }));
+    }
+    let meshes = if shows(&[Plot::Mesh]) {
+        Some(meshes(scenario.elements_per_cable))
+    } else {
+        (at_rest && critical.is_some()).then(|| fine(scenario.elements_per_cable))
     };
-    let study = match plot {
-        Some(Plot::Line) => Some(Study::Line { line: Line::through(&robot, &motion, LINE_POINTS), limit }),
-        Some(Plot::Directions) => Some(Study::Polar { position, count: DIRECTIONS, limit }),
-        Some(Plot::Campbell) => {
-            let to = highest_speed(motion.speed(), critical);
-            Some(Study::Speeds { position, direction, to, count: SPEEDS })
-        }
-        Some(Plot::Mesh | Plot::Eigenvalues | Plot::Growth | Plot::Modes | Plot::Knobs) | None => None,
-    };
-    wishes.extend(study.map(|study| Wish::new(scenario, study)));
     wishes.extend(meshes.and_then(|counts| Wish::meshes(scenario, counts)));
     wishes
 }
@@ -115,6 +123,13 @@ pub fn wanted(
 fn fine(today: usize) -> Vec<usize> {
     let quarter = (4 * today).clamp(FINE[0], FINE[1]) / 4;
     vec![quarter, 2 * quarter, 4 * quarter]
+}
+
+/// The grid a little smaller. On the very edge of the workspace some cables lie in one line, so that nothing there is
+/// feasible: the border would cut the corners of the region.
+fn within(grid: Grid) -> Grid {
+    let inset = INSET * (grid.high - grid.low);
+    Grid { low: grid.low + inset, high: grid.high - inset, ..grid }
 }
 
 /// Points of a map in a row and in a column.
@@ -165,21 +180,27 @@ mod tests {
         let before = presets::PRESETS[0].scenario();
         let mut after = before.clone();
         edit(&mut after);
-        let wish = |scenario| wanted(scenario, state, Some(state.plot), Some(11.3), false).pop();
+        let wish = |scenario| wanted(scenario, state, &[state.plot], Some(11.3), false).pop();
         wish(&before) != wish(&after)
     }
 
     #[test]
     fn only_what_is_open_is_wanted() {
         let paper = presets::PRESETS[0].scenario();
-        let topics = |state: &UiState, plot| -> Vec<Topic> {
-            wanted(&paper, state, plot, None, true).iter().map(Wish::topic).collect()
+        let topics = |state: &UiState, plots: &[Plot]| -> Vec<Topic> {
+            wanted(&paper, state, plots, None, true).iter().map(Wish::topic).collect()
         };
-        assert!(topics(&state(false, Plot::Modes), Some(Plot::Modes)).is_empty());
-        assert_eq!(topics(&state(true, Plot::Mesh), Some(Plot::Mesh)), [Topic::Map, Topic::Convergence]);
+        let border = Topic::Border;
+        assert_eq!(topics(&state(false, Plot::Modes), &[Plot::Modes]), [border]);
+        assert_eq!(topics(&state(true, Plot::Mesh), &[Plot::Mesh]), [border, Topic::Map, Topic::Convergence]);
+        // All plots on show, each topic once: eigenvalues leave the traces that the speed diagram is made of.
+        let all: Vec<Plot> = Plot::all().chain([Plot::Line]).collect();
+        let of_all = [border, Topic::Line, Topic::Polar, Topic::Campbell, Topic::Convergence];
+        assert_eq!(topics(&state(false, Plot::Modes), &all), of_all);
+        assert_eq!(topics(&state(false, Plot::Modes), &[Plot::Eigenvalues]), [border, Topic::Campbell]);
         // At rest, also which digits are certain, unless the plot of meshes says so.
         let at_rest = |plot, critical, at_rest| -> Vec<Wish> {
-            wanted(&paper, &state(false, Plot::Modes), Some(plot), critical, at_rest)
+            wanted(&paper, &state(false, Plot::Modes), &[plot], critical, at_rest).split_off(1)
         };
         let meshes = |wishes: Vec<Wish>| match &wishes[..] {
             [Wish { study: Study::Elements { counts, .. }, .. }] => counts.clone(),
@@ -194,7 +215,22 @@ mod tests {
             assert_eq!(fine(n), [finest / 4, finest / 2, finest]);
         }
         // On a phone the plots may be hidden.
-        assert_eq!(topics(&state(true, Plot::Mesh), None), [Topic::Map]);
+        assert_eq!(topics(&state(true, Plot::Mesh), &[]), [border, Topic::Map]);
+    }
+
+    #[test]
+    fn the_border_depends_on_the_robot_alone() {
+        let nothing = state(false, Plot::Modes);
+        let others: [fn(&mut Scenario); 5] = [
+            |s| s.motion.position = [3.0, 1.0],
+            |s| s.motion.direction = [0.0, 1.0],
+            |s| s.motion.speed = 9.0,
+            |s| s.damping.alpha *= 2.0,
+            |s| s.linearisation = Linearisation::Tangent,
+        ];
+        assert_eq!(others.map(|edit| changes(&nothing, edit)), [false; 5]);
+        assert!(changes(&nothing, |s| s.platform.mass *= 2.0));
+        assert!(changes(&nothing, |s| s.cables[0].anchor[0] -= 1.0));
     }
 
     #[test]
@@ -217,9 +253,9 @@ mod tests {
         let wish = |quantity| {
             let mut state = state(true, Plot::Modes);
             state.map.quantity = quantity;
-            wanted(&paper, &state, None, None, true)
+            wanted(&paper, &state, &[], None, true)
         };
-        for quantity in [MapQuantity::Frequency, MapQuantity::Kind, MapQuantity::Cable] {
+        for quantity in [MapQuantity::Frequency, MapQuantity::Kind, MapQuantity::Cable, MapQuantity::Waves] {
             assert_eq!(wish(quantity), wish(MapQuantity::Speed));
         }
     }

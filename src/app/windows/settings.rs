@@ -20,12 +20,17 @@ pub fn ui(settings: &mut Settings, ui: &mut Ui) {
             (MotionChoice::Reduced, "Nothing moves by itself"),
         ];
         choice(ui, "Movement", &mut settings.motion, &choices);
+        let sizes = [80, 90, 100, 110, 125, 150, 175, 200].map(|percent| (percent, format!("{percent} %")));
+        let sizes: Vec<(u16, &str)> = sizes.iter().map(|(percent, text)| (*percent, text.as_str())).collect();
+        choice(ui, "Text size", &mut settings.text_percent, &sizes);
+        let keys = [(true, "On"), (false, "Off")];
+        choice(ui, "Keys without Ctrl", &mut settings.single_keys, &keys);
     });
     ui.add_space(6.0);
     ui.weak("The settings and the robot on show are kept on this device and are there again after a restart.");
 }
 
-fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &'static str, value: &mut T, all: &[(T, &str)]) {
+fn choice<T: Copy + PartialEq>(ui: &mut Ui, name: &str, value: &mut T, all: &[(T, &str)]) {
     let label = ui.label(name);
     let title = all.iter().find(|(other, _)| other == value).map_or("", |(_, title)| title);
     let list = ComboBox::from_id_salt(name).width(180.0).selected_text(title).show_ui(ui, |ui| {

@@ -52,10 +52,10 @@ impl PoolWorker {
     pub fn submit(&mut self, task: Task) {
         match task {
             Task::Study { generation, job } => {
-                self.studies.remove(&Topic::of(&job.study));
+                self.studies.remove(&job.study.topic());
                 // The pool has checked it before. Batches of a study that is refused here end without answers.
                 if let Ok(places) = RobotStudy::new(&job) {
-                    self.studies.insert(Topic::of(&job.study), (generation, Arc::new(places)));
+                    self.studies.insert(job.study.topic(), (generation, Arc::new(places)));
                 }
             }
             Task::Forget(topic) => {

@@ -105,7 +105,7 @@ impl Scheduler {
 
     /// Begins a study in the place of its topic's.
     pub fn want(&mut self, job: StudyJob) {
-        let (topic, revision) = (Topic::of(&job.study), job.revision);
+        let (topic, revision) = (job.study.topic(), job.revision);
         self.cancel(topic);
         self.failures = 0;
         self.generation += 1;

@@ -90,13 +90,15 @@ impl RunningStudy {
         self.waiting.len()
     }
 
-    /// The study's rank among the running ones, 0 first: a map's first picture, then other studies, then the map's details.
+    /// The study's rank among the running ones, 0 first: a map's first picture, then other studies, then the map's details and
+    /// the border of the feasible region, which nobody waits for.
     /// `None` where no place waits.
     pub fn level(&self, workers: usize) -> Option<u8> {
         let coarse = *self.waiting.first()? < self.places.coarse();
-        Some(match Topic::of(&self.job.study) {
+        Some(match self.job.study.topic() {
             Topic::Map if coarse && self.spent < COARSE_TIME * workers as f64 => 0,
             Topic::Map if !coarse => 2,
+            Topic::Border => 2,
             _ => 1,
         })
     }
@@ -122,7 +124,7 @@ impl RunningStudy {
         let patience =
             if self.slowest > 0.0 { (SLOWEST * self.slowest * heaviest).clamp(PATIENCE, by_nature) } else { by_nature };
         SentBatch {
-            topic: Topic::of(&self.job.study),
+            topic: self.job.study.topic(),
             generation: self.generation,
             ranks,
             estimate,

@@ -1,48 +1,71 @@
-//! The map under the robot: its controls, its picture, what it says under the pointer, and a click that moves the
-//! platform.
+//! The map under the robot: its picture, its legend and controls, what it says under the pointer, and a click that moves
+//! the platform. The border of the feasible region belongs to it, and is shown without it too.
 
+mod contours;
+mod legend;
+mod lines;
 mod paint;
 mod picture;
+mod region;
+
+use std::time::Duration;
 
 use eframe::egui::{
-    Align, ComboBox, Label, Layout, Painter, PopupAnchor, ProgressBar, Rect, Response, Tooltip, Ui, UiBuilder, Vec2,
-    WidgetInfo,
+    Align, Button, ComboBox, Label, Layout, Painter, PopupAnchor, ProgressBar, Rect, Response, Role, Sense, Shape,
+    Stroke, Tooltip, Ui, UiBuilder, Vec2, Visuals, WidgetInfo,
 };
 
-pub use picture::Picture;
+pub use lines::Taken;
 
 use super::View;
+use super::range::KeptRange;
 use crate::app::command::Command;
 use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
 use crate::app::round::roundest;
 use crate::app::settings::Settings;
-use crate::app::state::{Camera, MapQuantity, MapView};
-use crate::app::studies::{Known, Shown, Stage, Studies};
-use crate::app::{digits, series};
+use crate::app::state::{MapQuantity, MapView};
+use crate::app::studies::{Known, Shown, Stage, Studies, Wish};
+use crate::app::{digits, series, theme};
 use crate::compute::protocol::{Revision, Topic};
 use crate::robot::Vec2 as WorldVec2;
+use crate::scenario::Scenario;
 use crate::stability::Instability;
 use crate::study::{Answer, Directions, Mapped, NoEigenvalues, Study, Verdict};
+use lines::Lines;
 use paint::Texture;
-use picture::{NO_EQUILIBRIUM, NOT_COMPUTED};
+use picture::{NO_EQUILIBRIUM, NOT_COMPUTED, Picture};
+use region::Region;
 
 /// While answers come in, the picture is made anew this often, in seconds.
 const RENEWAL: f64 = 0.1;
+/// Controls that have less room than this, in points, say less.
+const NARROW: f32 = 215.0;
+/// The border's width where it is to be seen, in points.
+const BORDER: f32 = 2.0;
 
 /// All quantities with their names.
-const QUANTITIES: [(MapQuantity, &str, &str); 5] = [
+const QUANTITIES: [(MapQuantity, &str, &str); 6] = [
     (MapQuantity::Speed, "Critical speed", "The first speed at which a vibration grows, in m/s"),
     (MapQuantity::Frequency, "Frequency", "The frequency of the vibration that grows first; 0 for divergence"),
     (MapQuantity::Kind, "Instability", "Flutter (a vibration grows) or divergence (a cable bows out)"),
     (MapQuantity::Cable, "Cable", "The cable with most of the kinetic energy of the vibration that grows first"),
-    (MapQuantity::Growth, "Growth rate", "The largest growth rate at today's speed, in 1/s; above 0 it is unstable"),
+    (
+        MapQuantity::Growth,
+        "Growth rate",
+        "The largest growth rate at the present speed, in 1/s; above 0 it is unstable",
+    ),
+    (MapQuantity::Waves, "Wave limit", "The speed at which a winch reels as fast as waves run along its cable, in m/s"),
 ];
 
-/// What the picture was made of.
-type Key = ((Revision, usize), MapQuantity, bool);
+/// What a picture was made of: the answers, the quantity, whether it is dark, whether it ends at the border, and what its
+/// numbers are multiplied with.
+type Key = ((Revision, usize), MapQuantity, bool, bool, u64);
 
-/// The picture on show, made anew only when something of it changes.
+/// What the range of the colours is about: a quantity, what its numbers are multiplied with, and the robot as it was opened.
+type Coloured = (MapQuantity, u64, Scenario);
+
+/// What is drawn under the robot, made anew only when something of it changes.
 #[derive(Default)]
 pub struct Layer {
     key: Option<Key>,
@@ -50,13 +73,25 @@ pub struct Layer {
     current: bool,
     picture: Option<Picture>,
     texture: Texture,
+    colours: KeptRange<Coloured>,
+    lines: Lines,
+    /// The feasible region, with what it was made of.
+    region: Option<((Revision, usize), Option<Region>)>,
+    /// Whether it is that of the present robot.
+    region_current: bool,
+    /// Whether it is that of the picture's robot, so that the picture ends at its border.
+    bounded: bool,
 }
 
 impl Layer {
-    /// Makes the picture anew where there are other answers, another quantity or other colours.
-    pub fn update(&mut self, ui: &Ui, studies: &Studies, view: MapView) {
+    /// Makes anew what there are other answers for, another quantity or other colours.
+    pub fn update(&mut self, ui: &Ui, facts: Facts<'_>, view: MapView) {
+        let Facts { document, studies, .. } = facts;
+        let border = studies.shown(Topic::Border);
+        self.update_region(border);
         let Some(Shown { known, current }) = studies.shown(Topic::Map).filter(|_| view.on) else {
             (self.key, self.picture) = (None, None);
+            self.lines.renew(None, 1.0);
             return;
         };
         // The study of another quantity may still be the one on show.
@@ -66,37 +101,85 @@ impl Layer {
             (false, quantity) => quantity,
         };
         self.current = current;
-        let key = (known.version, quantity, ui.visuals().dark_mode);
-        if self.key == Some(key) {
-            return;
+        // The map's robot would have the same border.
+        let same = |border: &Known| Wish::new(&known.wish.scenario, border.wish.study.clone()) == border.wish;
+        self.bounded = border.is_some_and(|border| same(border.known));
+        let (unit, _) = legend::unit(quantity, facts);
+        let key = (known.version, quantity, ui.visuals().dark_mode, self.bounds().is_some(), unit.to_bits());
+        if self.key != Some(key) && self.is_due(ui, studies, key) {
+            self.key = Some(key);
+            self.picture = Picture::new(known, quantity).map(|mut picture| {
+                let growth = quantity == MapQuantity::Growth;
+                let fitting = picture.range.map(|range| legend::round_range(range, unit, growth));
+                let about = (quantity, unit.to_bits(), document.original.clone());
+                picture.range = self.colours.update(&about, fitting, known.is_complete());
+                picture
+            });
+            // What goes on beyond the border is covered there.
+            let spread = self.picture.as_ref().filter(|_| self.bounds().is_some()).map(Picture::spread);
+            let drawn = spread.as_ref().or(self.picture.as_ref());
+            if let Some(drawn) = drawn {
+                self.texture.make(ui, drawn);
+            }
+            self.lines.renew(drawn, unit);
         }
+        if self.picture.as_ref().is_some_and(|picture| picture.quantity == MapQuantity::Speed) {
+            self.lines.at_speed(document.scenario.motion.speed);
+        }
+    }
+
+    /// Whether it is time for another picture: while answers come in, not in every frame.
+    fn is_due(&mut self, ui: &Ui, studies: &Studies, key: Key) -> bool {
         let now = ui.input(|input| input.time);
         let more_to_come = studies.progress(Topic::Map).stage == Stage::Working;
-        let same_look = self.key.is_some_and(|(_, quantity, dark)| (quantity, dark) == (key.1, key.2));
+        let same_look = self.key.is_some_and(|before| (before.1, before.2, before.4) == (key.1, key.2, key.4));
         if more_to_come && same_look && now < self.made_at + RENEWAL {
-            ui.ctx().request_repaint_after(std::time::Duration::from_secs_f64(RENEWAL));
+            ui.ctx().request_repaint_after(Duration::from_secs_f64(RENEWAL));
+            return false;
+        }
+        self.made_at = now;
+        true
+    }
+
+    fn update_region(&mut self, shown: Option<Shown<'_>>) {
+        self.region_current = shown.is_some_and(|shown| shown.current && shown.known.is_complete());
+        let Some(Shown { known, .. }) = shown else {
+            self.region = None;
             return;
-        }
-        (self.key, self.made_at) = (Some(key), now);
-        self.picture = Picture::new(known, quantity);
-        if let Some(picture) = &self.picture {
-            self.texture.make(ui, picture);
+        };
+        if self.region.as_ref().is_none_or(|(version, _)| *version != known.version) {
+            self.region = Some((known.version, Region::new(known)));
         }
     }
 
-    /// Draws the picture.
-    pub fn paint(&self, painter: &Painter, ui: &Ui, view: &View) {
-        if let Some(picture) = &self.picture {
-            self.texture.paint(painter, view, picture, self.current);
-            paint::patterns(painter, ui.visuals(), view, picture);
+    /// The region at whose border the picture ends.
+    fn bounds(&self) -> Option<&Region> {
+        self.region.as_ref()?.1.as_ref().filter(|_| self.bounded)
+    }
+
+    /// Draws the map, where it is on. Labels of contours keep clear of what is `taken`.
+    pub fn paint(&mut self, painter: &Painter, ui: &Ui, view: &View, taken: &Taken) {
+        let Some(picture) = &self.picture else { return };
+        let visuals = ui.visuals();
+        self.texture.paint(painter, view, picture, self.current);
+        self.lines.paint(painter, visuals, view, self.current);
+        paint::patterns(painter, visuals, view, picture, self.bounds());
+        if self.current {
+            self.lines.label(painter, visuals, view, taken);
+            paint::extremes(painter, visuals, view, picture);
         }
     }
 
-    /// Draws what the colours and patterns mean, in the canvas's lower left corner.
-    pub fn legend(&self, painter: &Painter, ui: &Ui, rect: Rect, facts: Facts<'_>) {
-        if let Some(picture) = &self.picture {
-            paint::legend(painter, ui.visuals(), rect, picture, self.current, facts);
+    /// Draws the border of the feasible region, as far as it is known, and hatches what lies outside, unless the map has
+    /// done so. That of an earlier robot is grey.
+    pub fn border(&self, painter: &Painter, visuals: &Visuals, view: &View) {
+        let Some((_, Some(region))) = &self.region else { return };
+        if self.picture.is_none() {
+            paint::outside(painter, visuals, view, region);
         }
+        let tokens = theme::tokens(visuals);
+        let colour = if self.region_current { tokens.stable } else { tokens.mute };
+        paint::border(painter, view, region, Stroke::new(BORDER, colour));
     }
 }
 
@@ -104,55 +187,127 @@ fn asks_growth(known: &Known) -> bool {
     matches!(known.wish.study, Study::Map { mapped: Mapped::Growth { .. }, .. })
 }
 
-/// Switch, quantity, direction and progress, in the canvas's upper right corner.
+/// Legend, quantity, direction, ways to the lowest and the highest place, and progress, in `corner` of the canvas; nothing
+/// where the map is off.
 pub fn controls(
+    layer: &mut Layer,
     map: &mut MapView,
-    camera: &mut Camera,
     ui: &mut Ui,
-    rect: Rect,
-    studies: &Studies,
+    corner: Rect,
+    facts: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
-    let room = Rect::from_min_max(rect.min + Vec2::new(8.0, 6.0), rect.max - Vec2::new(8.0, 6.0));
-    let layout = Layout::top_down(Align::Max);
-    ui.scope_builder(UiBuilder::new().max_rect(room).layout(layout), |ui| {
-        ui.allocate_ui_with_layout(Vec2::new(room.width(), 20.0), Layout::right_to_left(Align::Center), |ui| {
-            let text = "Colours the workspace under the robot, point by point. A click on it moves the platform.";
-            ui.toggle_value(&mut map.on, "Map").explained(text);
-            if map.on {
-                choices(map, ui);
+    if !map.on {
+        return;
+    }
+    // A zoomed map may lie under the corner.
+    let ground = ui.painter().add(Shape::Noop);
+    let layout = Layout::top_down(Align::Min);
+    // A click on the legend is none on the map.
+    let room = UiBuilder::new().max_rect(corner).layout(layout).sense(Sense::CLICK);
+    let inner = ui.scope_builder(room, |ui| {
+        ui.spacing_mut().item_spacing = Vec2::new(8.0, 6.0);
+        match &layer.picture {
+            Some(picture) => legend::ui(ui, picture, layer.current, facts),
+            None => _ = ui.label(legend::caption(map.quantity, facts)),
+        }
+        choices(map, ui, facts.document.scenario.motion.direction);
+        if let Some(picture) = &layer.picture {
+            ui.add_enabled_ui(layer.current, |ui| extremes(picture, ui, facts, commands));
+        }
+        if layer.colours.could_fit() && layer.picture.as_ref().is_some_and(|picture| picture.range.is_some()) {
+            let text =
+                "The colours keep their range while numbers change. This takes the range of the values there are.";
+            if ui.button("Fit colours").explained(text).clicked() {
+                layer.colours.fit();
+                layer.key = None;
             }
-            if *camera != Camera::default() && ui.button("Show all").clicked() {
-                *camera = Camera::default();
+        }
+        if !matches!(facts.studies.progress(Topic::Map).stage, Stage::Idle | Stage::Finished) {
+            ui.horizontal(|ui| progress(ui, Topic::Map, facts.studies, commands));
+        }
+    });
+    let colour = theme::tokens(ui.visuals()).canvas.gamma_multiply(0.92);
+    ui.painter().set(ground, Shape::rect_filled(inner.response.rect.expand(4.0), 6.0, colour));
+}
+
+/// What the map shows, and in which direction each point is passed.
+fn choices(map: &mut MapView, ui: &mut Ui, direction: [f64; 2]) {
+    let way = way(direction);
+    let narrow = ui.available_width() < NARROW;
+    let names = if narrow { [way, "worst".into()] } else { [format!("moving {way}"), "worst direction".into()] };
+    let name = |worst| names[usize::from(worst)].as_str();
+    let title = |quantity| QUANTITIES.iter().find(|(other, ..)| *other == quantity).map_or("", |(_, name, _)| name);
+    ui.horizontal(|ui| {
+        // Both lists fit side by side.
+        let spacing = ui.spacing_mut();
+        (spacing.item_spacing.x, spacing.button_padding.x, spacing.icon_width) = (4.0, 6.0, 10.0);
+        let list = ComboBox::from_id_salt("map quantity").width(0.0).selected_text(title(map.quantity));
+        let list = list.show_ui(ui, |ui| {
+            for (quantity, name, text) in QUANTITIES {
+                ui.selectable_value(&mut map.quantity, quantity, name).explained(text);
             }
         });
-        if map.on {
-            let row = Vec2::new(room.width(), 20.0);
-            ui.allocate_ui_with_layout(row, Layout::right_to_left(Align::Center), |ui| {
-                progress(ui, Topic::Map, studies, commands);
-            });
+        named(&list.response, "Map quantity", title(map.quantity));
+        let list = ComboBox::from_id_salt("map direction").truncate().width(ui.available_width());
+        let list = list.selected_text(name(map.worst)).show_ui(ui, |ui| {
+            let text = "Every point is passed in the motion's direction.";
+            ui.selectable_value(&mut map.worst, false, name(false)).explained(text);
+            let text = "At every point the worst of 16 directions counts. This takes longer.";
+            ui.selectable_value(&mut map.worst, true, name(true)).explained(text);
+        });
+        named(&list.response, "Map direction", name(map.worst));
+    });
+}
+
+/// A direction in a word or in degrees.
+fn way(direction: [f64; 2]) -> String {
+    let degrees = series::degrees(direction);
+    let near = |angle: f64| (degrees - angle).abs() < 0.05;
+    match degrees {
+        _ if near(0.0) => "+x".into(),
+        _ if near(90.0) => "+y".into(),
+        _ if near(180.0) || near(-180.0) => "−x".into(),
+        _ if near(-90.0) => "−y".into(),
+        _ if (degrees - degrees.round()).abs() < 0.05 => format!("{degrees:.0}°"),
+        _ => format!("{degrees:.1}°"),
+    }
+}
+
+/// Buttons that move the platform to the lowest and to the highest place.
+fn extremes(picture: &Picture, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    let Some(places) = picture.extremes else { return };
+    let (unit, _) = legend::unit(picture.quantity, facts);
+    let width = 0.5 * (ui.available_width() - ui.spacing().item_spacing.x);
+    let height = ui.spacing().interact_size.y;
+    ui.horizontal(|ui| {
+        for ((index, value), [mark, word, name]) in
+            places.into_iter().zip([["▼", "Lowest", "Go to the lowest"], ["▲", "Highest", "Go to the highest"]])
+        {
+            let value = short(value * unit, facts.share());
+            let text = if 2.0 * width < NARROW { format!("{mark} {value}") } else { format!("{mark} {word} {value}") };
+            let button = ui.add_sized([width, height], Button::new(text));
+            button.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+            let at = picture.grid.position(index);
+            let text = format!("Moves the platform there, to ({:.2}, {:.2}) m", at.x, at.y);
+            if button.explained(text).clicked() {
+                move_to(at.into(), facts, commands);
+            }
         }
     });
 }
 
-fn choices(map: &mut MapView, ui: &mut Ui) {
-    let name = |worst| if worst { "Worst direction" } else { "Motion's direction" };
-    let list = ComboBox::from_id_salt("map direction").width(126.0).selected_text(name(map.worst));
-    let list = list.show_ui(ui, |ui| {
-        let text = "Every point is passed in the motion's direction.";
-        ui.selectable_value(&mut map.worst, false, name(false)).explained(text);
-        let text = "At every point the worst of 16 directions counts. This takes longer.";
-        ui.selectable_value(&mut map.worst, true, name(true)).explained(text);
-    });
-    named(&list.response, "Map direction", name(map.worst));
-    let title = |quantity| QUANTITIES.iter().find(|(other, ..)| *other == quantity).map_or("", |(_, name, _)| name);
-    let list = ComboBox::from_id_salt("map quantity").width(104.0).selected_text(title(map.quantity));
-    let list = list.show_ui(ui, |ui| {
-        for (quantity, name, text) in QUANTITIES {
-            ui.selectable_value(&mut map.quantity, quantity, name).explained(text);
-        }
-    });
-    named(&list.response, "Map quantity", title(map.quantity));
+/// A value with no more digits than a button has room for.
+fn short(value: f64, share: Option<f64>) -> String {
+    let text = digits::like(value, share);
+    let long = text.split_once('.').is_some_and(|(_, decimals)| decimals.len() > 2);
+    if long && value.abs() >= 0.01 { format!("{value:.2}") } else { text }
+}
+
+fn move_to(position: [f64; 2], facts: Facts<'_>, commands: &mut Vec<Command>) {
+    let mut scenario = facts.document.scenario.clone();
+    scenario.motion.position = position;
+    commands.push(Command::Edit(Box::new(scenario)));
 }
 
 /// A list's name for those who do not see it.
@@ -160,7 +315,7 @@ pub fn named(list: &Response, name: &str, value: &str) {
     list.widget_info(|| WidgetInfo {
         label: Some(name.into()),
         current_text_value: Some(value.into()),
-        ..WidgetInfo::new(eframe::egui::Role::ComboBox)
+        ..WidgetInfo::new(Role::ComboBox)
     });
 }
 
@@ -207,7 +362,7 @@ pub fn point(
     facts: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
-    let Facts { document, studies, settings, .. } = facts;
+    let Facts { studies, settings, .. } = facts;
     let Some(Shown { known, current }) = studies.shown(Topic::Map) else { return };
     let Study::Map { grid, .. } = &known.wish.study else { return };
     let pointer = background.hover_pos().filter(|_| background.hovered() && !background.dragged());
@@ -229,9 +384,7 @@ pub fn point(
     if let Some(clicked) = clicked {
         let to = view.pos_in_world(clicked);
         if picture::nearest(grid, to.into()).is_some() {
-            let mut scenario = document.scenario.clone();
-            scenario.motion.position = to.map(|coordinate| roundest(coordinate, 1.0 / view.scale));
-            commands.push(Command::Edit(Box::new(scenario)));
+            move_to(to.map(|coordinate| roundest(coordinate, 1.0 / view.scale)), facts, commands);
         }
     }
 }
@@ -246,32 +399,54 @@ fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings, share
             format!("{word}, growth rate {} 1/s", digits::certain(*rate, None))
         }
         Some(Answer::Growth(Err(NoEigenvalues::Infeasible))) => NO_EQUILIBRIUM.into(),
-        Some(Answer::Growth(Err(NoEigenvalues::Failed)) | Answer::Spectrum(_) | Answer::Modes(_)) => {
-            NOT_COMPUTED.into()
+        Some(Answer::Critical { direction, verdict, wave_limit }) => {
+            let said = found(known, *direction, verdict, settings, share);
+            // It is as far off as the critical speed, which comes from the same mesh.
+            let waves = wave_limit.map(|speed| format!("\nwave limit {} m/s", digits::like(speed, share)));
+            said + &waves.unwrap_or_default()
         }
-        Some(Answer::Critical { direction, verdict, .. }) => match verdict {
-            Verdict::Infeasible => NO_EQUILIBRIUM.into(),
-            Verdict::Unknown => NOT_COMPUTED.into(),
-            Verdict::NotConverged => format!("critical speed {NOT_COMPUTED}"),
-            Verdict::NoneUpTo(speed) => format!("no critical speed up to {speed:.0} m/s"),
-            Verdict::Critical(critical) => {
-                let kind = match critical.kind {
-                    Instability::Flutter => {
-                        let (hertz, unit) = settings.hertz();
-                        format!("flutter at {} {unit}", digits::like(critical.frequency_hz() * hertz, share))
-                    }
-                    Instability::Divergence => "divergence".into(),
-                };
-                let worst = match known.wish.study {
-                    Study::Map { directions: Directions::Worst(_), .. } => {
-                        format!("\nin the direction {:.1}°", series::degrees((*direction).into()))
-                    }
-                    _ => String::new(),
-                };
-                let speed = digits::like(critical.speed, share);
-                format!("critical speed {speed} m/s{worst}\n{kind}, cable {}", critical.cable + 1)
-            }
-        },
+        Some(_) => NOT_COMPUTED.into(),
     };
     format!("{place}:\n{said}")
+}
+
+/// What a search for the critical speed has found, in words.
+fn found(known: &Known, direction: WorldVec2, verdict: &Verdict, settings: Settings, share: Option<f64>) -> String {
+    match verdict {
+        Verdict::Infeasible => NO_EQUILIBRIUM.into(),
+        Verdict::Unknown => NOT_COMPUTED.into(),
+        Verdict::NotConverged => format!("critical speed {NOT_COMPUTED}"),
+        Verdict::NoneUpTo(speed) => format!("no critical speed up to {speed:.0} m/s"),
+        Verdict::Critical(critical) => {
+            let kind = match critical.kind {
+                Instability::Flutter => {
+                    let (hertz, unit) = settings.hertz();
+                    format!("flutter at {} {unit}", digits::like(critical.frequency_hz() * hertz, share))
+                }
+                Instability::Divergence => "divergence".into(),
+            };
+            let worst = match known.wish.study {
+                Study::Map { directions: Directions::Worst(_), .. } => {
+                    format!("\nin the direction {:.1}°", series::degrees(direction.into()))
+                }
+                _ => String::new(),
+            };
+            let speed = digits::like(critical.speed, share);
+            format!("critical speed {speed} m/s{worst}\n{kind}, cable {}", critical.cable + 1)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_have_words_and_buttons_short_figures() {
+        let ways = [[1.0, 0.0], [0.0, 2.0], [-1.0, 0.0], [-1.0, -0.0], [0.0, -1.0], [3.0, 3.0]].map(way);
+        assert_eq!(ways, ["+x", "+y", "−x", "−x", "−y", "45°"]);
+        assert_eq!(way([2.0, 1.0]), "26.6°");
+        let figures = [0.041_234, 15.0432, 0.001_234, -0.2049, 0.0].map(|value| short(value, None));
+        assert_eq!(figures, ["0.04", "15.0", "0.00123", "-0.20", "0"]);
+    }
 }

@@ -1,15 +1,16 @@
-//! Puts the map and its legend on the screen.
+//! Puts the map on the screen: its colours and what is told by patterns, letters and marks.
+
+use std::collections::BTreeMap;
 
 use eframe::egui::{
-    Align2, Color32, ColorImage, FontId, Mesh, Painter, Pos2, Rect, Stroke, StrokeKind, TextureHandle, TextureOptions,
-    Ui, Vec2, Visuals,
+    Align2, Color32, ColorImage, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, TextureHandle, TextureOptions, Ui,
+    Vec2, Visuals,
 };
 
-use super::picture::{CLASSES, Cell, NO_EQUILIBRIUM, NOT_COMPUTED, Picture};
+use super::contours::Line;
+use super::picture::{Cell, Picture};
+use super::region::Region;
 use crate::app::canvas::View;
-use crate::app::digits;
-use crate::app::facts::Facts;
-use crate::app::round::round_step;
 use crate::app::state::MapQuantity;
 use crate::app::theme;
 use crate::robot::{BoundingBox, Vec2 as WorldVec2};
@@ -19,8 +20,10 @@ use crate::study::evenly;
 const DOTS: usize = 6;
 /// Points of the screen from one line of a hatching to the next.
 const HATCHING: f32 = 8.0;
-/// Room for one entry of the legend, in points.
-const ENTRY: f32 = 16.0;
+/// Parts of a line of a hatching that are nearer to each other than this, in points, are one.
+const TOUCHING: f32 = 0.5;
+/// The size of the marks of the lowest and the highest place, in points.
+const MARK: f32 = 7.0;
 
 /// The colours of the map as an image on the graphics card.
 #[derive(Default)]
@@ -58,10 +61,10 @@ impl Texture {
 }
 
 /// The colour of a point.
-fn colour(picture: &Picture, cell: Cell, visuals: &Visuals) -> Color32 {
+pub fn colour(picture: &Picture, cell: Cell, visuals: &Visuals) -> Color32 {
     let colour = match cell {
         Cell::Value(value) if picture.quantity == MapQuantity::Growth => theme::diverging(picture.part(value), visuals),
-        Cell::Value(value) => theme::sequential(picture.part(value), visuals),
+        Cell::Value(value) => theme::on_map(picture.part(value)),
         Cell::Class(class) => theme::class(class),
         Cell::NoneUpTo => theme::calm(visuals).gamma_multiply(0.35),
         Cell::Unknown | Cell::Infeasible | Cell::Failed => return Color32::TRANSPARENT,
@@ -69,46 +72,67 @@ fn colour(picture: &Picture, cell: Cell, visuals: &Visuals) -> Color32 {
     colour.gamma_multiply(0.85)
 }
 
-/// Draws what is told by patterns and letters: no equilibrium, nothing critical, classes.
-pub fn patterns(painter: &Painter, visuals: &Visuals, view: &View, picture: &Picture) {
+/// Draws what is told by patterns and letters: no equilibrium, nothing critical, classes. Where the feasible `region` is
+/// known, its border is the picture's end.
+pub fn patterns(painter: &Painter, visuals: &Visuals, view: &View, picture: &Picture, region: Option<&Region>) {
     let origin = view.pos_in_ui([0.0, 0.0]);
-    for area in picture.areas(Cell::Infeasible) {
-        hatching(painter, visuals, origin, view.rect_in_ui(area));
+    if let Some(region) = region {
+        let pieces = on_screen(region, view);
+        mask(painter, visuals, &pieces);
+        hatching(painter, visuals, origin, &pieces);
+        border(painter, view, region, Stroke::new(1.5, theme::tokens(visuals).weak));
+    } else {
+        let areas = picture.areas(Cell::Infeasible).into_iter().map(|area| corners(view.rect_in_ui(area)));
+        hatching(painter, visuals, origin, &areas.collect::<Vec<_>>());
     }
     for area in picture.areas(Cell::NoneUpTo) {
         level_lines(painter, visuals, origin, view.rect_in_ui(area));
     }
-    for line in picture.zero_line() {
-        painter.line_segment(line.map(|end| view.pos_in_ui(end)), limit(visuals));
-    }
-    let text = |at: [f64; 2], text: &str| {
-        let at = view.pos_in_ui(at);
-        if view.rect.contains(at) {
-            painter.circle_filled(at, 7.5, visuals.extreme_bg_color.gamma_multiply(0.75));
-            let font = FontId::proportional(11.0);
-            painter.text(at, Align2::CENTER_CENTER, text, font, visuals.strong_text_color());
-        }
-    };
     for (at, cell) in picture.labels() {
         match cell {
-            Cell::Class(class) => text(at, &letter(picture.quantity, class)),
-            _ => text(at, "▲"),
+            Cell::Class(class) => letter(painter, visuals, view, at, &name_of(picture.quantity, class)),
+            _ => letter(painter, visuals, view, at, "▲"),
         }
     }
     // Dots, so that not even a large area looks like one without equilibrium, and a letter in each.
     for area in picture.areas(Cell::Failed) {
         dots(painter, visuals, origin, view.rect_in_ui(area));
-        text(area.middle().into(), "?");
+        letter(painter, visuals, view, area.middle().into(), "?");
     }
 }
 
-/// The line between what grows and what dies out.
-fn limit(visuals: &Visuals) -> Stroke {
-    Stroke::new(2.0, visuals.strong_text_color())
+/// Marks the lowest and the highest place.
+pub fn extremes(painter: &Painter, visuals: &Visuals, view: &View, picture: &Picture) {
+    let Some(places) = picture.extremes else { return };
+    let tokens = theme::tokens(visuals);
+    for ((index, _), up) in places.into_iter().zip([-1.0, 1.0]) {
+        let at = view.pos_in_ui(picture.grid.position(index).into());
+        let corner = |x: f32, y: f32| at + MARK * Vec2::new(x, -up * y);
+        let triangle = vec![corner(0.0, 1.0), corner(1.0, -0.7), corner(-1.0, -0.7)];
+        painter.add(Shape::convex_polygon(triangle, tokens.text, Stroke::new(2.0, tokens.canvas)));
+    }
+}
+
+/// Draws the border of the feasible region.
+pub fn border(painter: &Painter, view: &View, region: &Region, stroke: Stroke) {
+    for line in &region.border {
+        polyline(painter, view, line, stroke);
+    }
+}
+
+/// Hatches what lies outside of the feasible region.
+pub fn outside(painter: &Painter, visuals: &Visuals, view: &View, region: &Region) {
+    hatching(painter, visuals, view.pos_in_ui([0.0, 0.0]), &on_screen(region, view));
+}
+
+/// Draws a line through the world.
+pub fn polyline(painter: &Painter, view: &View, line: &Line, stroke: Stroke) {
+    let points = line.points.iter().map(|&point| view.pos_in_ui(point)).collect();
+    painter.add(if line.closed { Shape::closed_line(points, stroke) } else { Shape::line(points, stroke) });
 }
 
 /// How a class is labelled.
-fn letter(quantity: MapQuantity, class: usize) -> String {
+pub fn name_of(quantity: MapQuantity, class: usize) -> String {
     match (quantity, class) {
         (MapQuantity::Kind, 0) => "F".into(),
         (MapQuantity::Kind, _) => "D".into(),
@@ -116,204 +140,138 @@ fn letter(quantity: MapQuantity, class: usize) -> String {
     }
 }
 
-fn faint(visuals: &Visuals) -> Stroke {
-    Stroke::new(1.0, visuals.weak_text_color().gamma_multiply(0.6))
+fn letter(painter: &Painter, visuals: &Visuals, view: &View, at: [f64; 2], text: &str) {
+    let at = view.pos_in_ui(at);
+    if view.rect.contains(at) {
+        sign(painter, visuals, at, text);
+    }
 }
 
-/// Lines that rise to the right. Those of neighbouring areas join, since all are counted from `origin`.
-fn hatching(painter: &Painter, visuals: &Visuals, origin: Pos2, area: Rect) {
-    let area = area.intersect(painter.clip_rect());
-    if !area.is_positive() {
-        return;
+/// A letter on a disc.
+pub fn sign(painter: &Painter, visuals: &Visuals, at: Pos2, text: &str) {
+    let tokens = theme::tokens(visuals);
+    painter.circle_filled(at, 7.0, tokens.canvas.gamma_multiply(0.8));
+    painter.text(at, Align2::CENTER_CENTER, text, FontId::proportional(11.0), tokens.text);
+}
+
+/// The colour of patterns.
+fn pattern(visuals: &Visuals) -> Color32 {
+    theme::tokens(visuals).mute.gamma_multiply(0.55)
+}
+
+/// What lies outside of a region, in pieces on the screen.
+fn on_screen(region: &Region, view: &View) -> Vec<Vec<Pos2>> {
+    region.outside.iter().map(|piece| piece.iter().map(|&corner| view.pos_in_ui(corner)).collect()).collect()
+}
+
+/// The corners of a rectangle, round it.
+pub fn corners(area: Rect) -> Vec<Pos2> {
+    vec![area.left_top(), area.right_top(), area.right_bottom(), area.left_bottom()]
+}
+
+/// Covers convex pieces with the colour of the canvas. They have no soft edges, so that no seam is seen between them.
+fn mask(painter: &Painter, visuals: &Visuals, pieces: &[Vec<Pos2>]) {
+    let colour = theme::tokens(visuals).canvas;
+    let mut mesh = Mesh::default();
+    for piece in pieces {
+        let mut first = 0;
+        for (i, &corner) in (0_u32..).zip(piece) {
+            // The number of the corner just added; a mesh counts in u32 too.
+            let index = u32::try_from(mesh.vertices.len()).unwrap_or_default();
+            mesh.colored_vertex(corner, colour);
+            match i {
+                0 => first = index,
+                1 => {}
+                _ => mesh.add_triangle(first, index - 1, index),
+            }
+        }
     }
-    let stroke = faint(visuals);
-    let offset = origin.x + origin.y;
-    let first = ((area.min.x + area.min.y - offset) / HATCHING).ceil();
-    let mut sum = offset + first * HATCHING;
-    while sum < area.max.x + area.max.y {
-        let (left, right) = (area.min.x.max(sum - area.max.y), area.max.x.min(sum - area.min.y));
+    painter.add(mesh);
+}
+
+/// Lines that rise to the right, in convex pieces. Those of neighbouring pieces join, since all are counted from `origin`.
+pub fn hatching(painter: &Painter, visuals: &Visuals, origin: Pos2, pieces: &[Vec<Pos2>]) {
+    let stroke = Stroke::new(1.0, pattern(visuals));
+    for (sum, [left, right]) in hatches(painter.clip_rect(), origin, pieces) {
         painter.line_segment([Pos2::new(left, sum - left), Pos2::new(right, sum - right)], stroke);
-        sum += HATCHING;
     }
+}
+
+/// The lines of a hatching within `clip`: on each x + y is the first number, and x goes from the second to the third.
+fn hatches(clip: Rect, origin: Pos2, pieces: &[Vec<Pos2>]) -> Vec<(f32, [f32; 2])> {
+    let offset = origin.x + origin.y;
+    // The number of a line, counted from the origin. Within the clip there are a few hundred of them.
+    #[expect(clippy::cast_possible_truncation)]
+    let number = |sum: f32| ((sum - offset) / HATCHING).ceil() as i32;
+    let mut parts: BTreeMap<i32, Vec<[f32; 2]>> = BTreeMap::new();
+    for piece in pieces {
+        let sums = || piece.iter().map(|corner| corner.x + corner.y);
+        let low = sums().fold(f32::MAX, f32::min).max(clip.min.x + clip.min.y);
+        let high = sums().fold(f32::MIN, f32::max).min(clip.max.x + clip.max.y);
+        for line in number(low)..number(high) {
+            let sum = offset + line as f32 * HATCHING;
+            let (mut left, mut right) = (f32::MAX, f32::MIN);
+            for (from, to) in piece.iter().zip(piece.iter().skip(1).chain(&piece[..1])) {
+                let (before, after) = (from.x + from.y - sum, to.x + to.y - sum);
+                if (before > 0.0) != (after > 0.0) {
+                    let x = from.x + (to.x - from.x) * before / (before - after);
+                    (left, right) = (left.min(x), right.max(x));
+                }
+            }
+            (left, right) = (left.max(clip.min.x).max(sum - clip.max.y), right.min(clip.max.x).min(sum - clip.min.y));
+            if left < right {
+                parts.entry(line).or_default().push([left, right]);
+            }
+        }
+    }
+    let mut lines = Vec::new();
+    for (line, mut parts) in parts {
+        let sum = offset + line as f32 * HATCHING;
+        parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut parts = parts.into_iter();
+        let Some(mut last) = parts.next() else { continue };
+        for part in parts {
+            if part[0] <= last[1] + TOUCHING {
+                last[1] = last[1].max(part[1]);
+            } else {
+                lines.push((sum, last));
+                last = part;
+            }
+        }
+        lines.push((sum, last));
+    }
+    lines
 }
 
 /// Dots in a square grid that is counted from `origin`.
-fn dots(painter: &Painter, visuals: &Visuals, origin: Pos2, area: Rect) {
+pub fn dots(painter: &Painter, visuals: &Visuals, origin: Pos2, area: Rect) {
     let area = area.intersect(painter.clip_rect());
     if !area.is_positive() {
         return;
     }
-    let colour = faint(visuals).color;
     let first = |low: f32, origin: f32| origin + ((low - origin) / HATCHING).ceil() * HATCHING;
     let mut y = first(area.min.y, origin.y);
     while y < area.max.y {
         let mut x = first(area.min.x, origin.x);
         while x < area.max.x {
-            painter.circle_filled(Pos2::new(x, y), 1.3, colour);
+            painter.circle_filled(Pos2::new(x, y), 1.3, pattern(visuals));
             x += HATCHING;
         }
         y += HATCHING;
     }
 }
 
-fn level_lines(painter: &Painter, visuals: &Visuals, origin: Pos2, area: Rect) {
+/// Level lines, counted from `origin`.
+pub fn level_lines(painter: &Painter, visuals: &Visuals, origin: Pos2, area: Rect) {
     let area = area.intersect(painter.clip_rect());
     if !area.is_positive() {
         return;
     }
     let mut y = origin.y + ((area.min.y - origin.y) / HATCHING).ceil() * HATCHING;
     while y < area.max.y {
-        painter.hline(area.x_range(), y, faint(visuals));
+        painter.hline(area.x_range(), y, Stroke::new(1.0, pattern(visuals)));
         y += HATCHING;
     }
-}
-
-/// Draws what colours and patterns mean.
-pub fn legend(
-    painter: &Painter,
-    visuals: &Visuals,
-    rect: Rect,
-    picture: &Picture,
-    current: bool,
-    Facts { document, settings, .. }: Facts<'_>,
-) {
-    let (hertz, unit) = settings.hertz();
-    let font = FontId::proportional(12.0);
-    let text = if current { visuals.text_color() } else { visuals.weak_text_color() };
-    let title = match picture.quantity {
-        MapQuantity::Speed => "Critical speed (m/s)".into(),
-        MapQuantity::Frequency => format!("Frequency at the critical speed ({unit})"),
-        MapQuantity::Kind => "Instability of instability".into(),
-        MapQuantity::Cable => "Responsible cable".into(),
-        MapQuantity::Growth => format!("Growth rate at {:.2} m/s (1/s)", document.scenario.motion.speed),
-    };
-    let title = if current { title } else { format!("{title}, earlier state") };
-    let corner = rect.left_bottom() + Vec2::new(12.0, -46.0);
-    painter.text(corner, Align2::LEFT_TOP, title, font.clone(), text);
-    let below = corner + Vec2::new(0.0, 17.0);
-    let mut right = below.x;
-    if let Some([low, high]) = picture.range {
-        let bar = Rect::from_min_size(below, Vec2::new(140.0, 8.0));
-        let unit = if picture.quantity == MapQuantity::Frequency { hertz } else { 1.0 };
-        scale(painter, visuals, bar, picture, [low, high], unit);
-        right = bar.max.x + 22.0;
-    }
-    // One row of entries; what does not fit goes on above the title.
-    let mut at = Pos2::new(right, below.y - 3.0);
-    let mut entry = |swatch: &dyn Fn(Rect), name: &str| {
-        let width = ENTRY + 6.0 + painter.layout_no_wrap(name.into(), font.clone(), text).size().x;
-        if at.x + width > rect.max.x - 8.0 {
-            at = Pos2::new(corner.x, at.y - 2.0 * ENTRY);
-        }
-        let square = Rect::from_min_size(at, Vec2::splat(ENTRY - 2.0));
-        swatch(square);
-        painter.rect_stroke(square, 0.0, Stroke::new(1.0, text), StrokeKind::Inside);
-        painter.text(at + Vec2::new(ENTRY + 3.0, 7.0), Align2::LEFT_CENTER, name, font.clone(), text);
-        at.x += width + 10.0;
-    };
-    for class in 0..CLASSES {
-        if picture.has(Cell::Class(class)) {
-            let letter = letter(picture.quantity, class);
-            let name = match (picture.quantity, class) {
-                (MapQuantity::Kind, 0) => "Flutter",
-                (MapQuantity::Kind, _) => "Divergence",
-                _ => "",
-            };
-            let swatch = |square: Rect| {
-                painter.rect_filled(square, 0.0, colour(picture, Cell::Class(class), visuals));
-                painter.circle_filled(square.center(), 6.0, visuals.extreme_bg_color.gamma_multiply(0.75));
-                let small = FontId::proportional(11.0);
-                let strong = visuals.strong_text_color();
-                painter.text(square.center(), Align2::CENTER_CENTER, &letter, small, strong);
-            };
-            entry(&swatch, name);
-        }
-    }
-    if let Some([low, high]) = picture.range.filter(|_| picture.quantity == MapQuantity::Growth) {
-        entry(&|square| _ = painter.rect_filled(square, 0.0, colour(picture, Cell::Value(low), visuals)), "dies out");
-        let swatch = |square: Rect| {
-            painter.line_segment([square.left_center(), square.right_center()], limit(visuals));
-        };
-        entry(&swatch, "limit, 0");
-        let swatch = |square: Rect| {
-            painter.rect_filled(square, 0.0, colour(picture, Cell::Value(high), visuals));
-            painter.circle_filled(square.center(), 6.0, visuals.extreme_bg_color.gamma_multiply(0.75));
-            let strong = visuals.strong_text_color();
-            painter.text(square.center(), Align2::CENTER_CENTER, "▲", FontId::proportional(11.0), strong);
-        };
-        entry(&swatch, "grows");
-    }
-    if picture.has(Cell::Infeasible) {
-        entry(&|square| hatching(painter, visuals, square.min, square), NO_EQUILIBRIUM);
-    }
-    if picture.has(Cell::Failed) {
-        let swatch = |square: Rect| {
-            let strong = visuals.strong_text_color();
-            dots(painter, visuals, square.min + Vec2::splat(3.0), square);
-            painter.text(square.center(), Align2::CENTER_CENTER, "?", FontId::proportional(11.0), strong);
-        };
-        entry(&swatch, NOT_COMPUTED);
-    }
-    if let Some(speed) = picture.none_up_to.filter(|_| picture.has(Cell::NoneUpTo)) {
-        let swatch = |square: Rect| {
-            painter.rect_filled(square, 0.0, colour(picture, Cell::NoneUpTo, visuals));
-            level_lines(painter, visuals, square.min, square);
-        };
-        entry(&swatch, &format!("none up to {speed:.0} m/s"));
-    }
-}
-
-/// The colour bar with its ticks. Its numbers are the picture's values times `unit`.
-fn scale(painter: &Painter, visuals: &Visuals, bar: Rect, picture: &Picture, [low, high]: [f64; 2], unit: f64) {
-    let text = visuals.text_color();
-    let mut strip = Mesh::default();
-    let steps = 48_u8;
-    for i in 0..=steps {
-        let part = f32::from(i) / f32::from(steps);
-        let value = low + (high - low) * f64::from(part);
-        let x = bar.min.x + bar.width() * part;
-        let colour = colour(picture, Cell::Value(value), visuals);
-        strip.colored_vertex(Pos2::new(x, bar.min.y), colour);
-        strip.colored_vertex(Pos2::new(x, bar.max.y), colour);
-        if i > 0 {
-            let last = 2 * u32::from(i);
-            strip.add_triangle(last - 2, last - 1, last);
-            strip.add_triangle(last - 1, last, last + 1);
-        }
-    }
-    painter.add(strip);
-    if picture.beyond {
-        let end = colour(picture, Cell::Value(high), visuals);
-        painter.text(bar.right_center(), Align2::LEFT_CENTER, "▶", FontId::proportional(12.0), end);
-    }
-    let font = FontId::proportional(11.0);
-    for (value, label) in ticks(low * unit, high * unit) {
-        #[expect(clippy::cast_possible_truncation)] // A part of one.
-        let x = bar.min.x + bar.width() * picture.part(value / unit) as f32;
-        painter.vline(x, bar.max.y..=bar.max.y + 3.0, Stroke::new(1.0, text));
-        painter.text(Pos2::new(x, bar.max.y + 3.0), Align2::CENTER_TOP, label, font.clone(), text);
-    }
-}
-
-/// Round values from `low` to `high`, about four, with their labels; the one value where all are equal.
-fn ticks(low: f64, high: f64) -> Vec<(f64, String)> {
-    if high - low <= 1e-9 * high.abs() {
-        return vec![(low, digits::certain(low, None))];
-    }
-    let step = round_step((high - low) / 4.0);
-    // At most five, and small.
-    #[expect(clippy::cast_possible_truncation)]
-    let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
-    let digits = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
-    (first..=last)
-        .take(6)
-        .map(|i| {
-            // No minus before zero.
-            let value = i as f64 * step + 0.0;
-            (value, format!("{value:.digits$}"))
-        })
-        .collect()
 }
 
 #[cfg(test)]
@@ -321,10 +279,26 @@ mod tests {
     use super::*;
 
     #[test]
-    fn ticks_are_round_and_within() {
-        let labels = |low, high| ticks(low, high).into_iter().map(|(_, label)| label).collect::<Vec<_>>();
-        assert_eq!(labels(0.3, 11.3), ["5", "10"]);
-        assert_eq!(labels(-0.013, 0.02), ["-0.01", "0.00", "0.01", "0.02"]);
-        assert_eq!(labels(2.5, 2.5), ["2.50"]);
+    fn a_hatching_goes_through_neighbouring_pieces_in_one_line_and_stays_within_the_clip() {
+        let square = |x: f32| corners(Rect::from_min_size(Pos2::new(x, 0.0), Vec2::splat(10.0)));
+        let everything = Rect::from_min_size(Pos2::new(-100.0, -100.0), Vec2::splat(300.0));
+        let origin = Pos2::new(0.0, 0.0);
+        let lines = hatches(everything, origin, &[square(0.0), square(10.0)]);
+        // x + y = 8, 16, 24 cross the rectangle of 20 by 10, and so does 0 in a corner at most.
+        let near = |a: f32, b: f32| (a - b).abs() < 1e-4;
+        let expected = [(8.0, [0.0, 8.0]), (16.0, [6.0, 16.0]), (24.0, [14.0, 20.0])];
+        assert_eq!(lines.len(), expected.len(), "{lines:?}");
+        for ((sum, [left, right]), (sum_there, [from, to])) in lines.into_iter().zip(expected) {
+            assert!(near(sum, sum_there) && near(left, from) && near(right, to), "{sum} {left} {right}");
+        }
+        let apart = hatches(everything, origin, &[square(0.0), square(20.0)]);
+        assert!(apart.iter().filter(|(sum, _)| near(*sum, 24.0)).count() == 1 && apart.len() == 4, "{apart:?}");
+        let clip = Rect::from_min_size(Pos2::new(2.0, 2.0), Vec2::splat(5.0));
+        let clipped = hatches(clip, origin, &[square(0.0)]);
+        assert!(clipped.iter().all(|(sum, [left, right])| {
+            clip.expand(1e-4).contains(Pos2::new(*left, sum - left))
+                && clip.expand(1e-4).contains(Pos2::new(*right, sum - right))
+        }));
+        assert_eq!(clipped.len(), 1, "{clipped:?}");
     }
 }

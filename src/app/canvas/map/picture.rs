@@ -1,5 +1,6 @@
 //! What the map shows, in world coordinates and without colours.
 
+use super::contours::Field;
 use crate::app::state::MapQuantity;
 use crate::app::studies::Known;
 use crate::robot::{BoundingBox, Vec2};
@@ -43,11 +44,15 @@ pub struct Picture {
     pub quantity: MapQuantity,
     /// By point; what is not known yet shows what a coarser map would.
     pub cells: Vec<Cell>,
-    /// The least and the largest value, where there are any. Of growth rates zero is the middle, and those that far exceed
-    /// all decay would hide where it begins: they share the end of the range.
+    /// The least and the largest value, where there are any.
+    pub found: Option<[f64; 2]>,
+    /// The range of the colours. To begin with it is the one that fits the values: of growth rates zero is the middle, and
+    /// those that far exceed all decay would hide where it begins, so they share the end of the range.
     pub range: Option<[f64; 2]>,
-    /// Whether some values lie beyond the end of the range.
-    pub beyond: bool,
+    /// The points with the least and the largest of the values that are known, with these.
+    pub extremes: Option<[(usize, f64); 2]>,
+    /// Every so-many-th point of every so-many-th row is known; `None` where not even the coarsest map is.
+    pub finest: Option<usize>,
     /// Up to which speed in m/s some points have no critical one, where there are such.
     pub none_up_to: Option<f64>,
 }
@@ -58,15 +63,14 @@ impl Picture {
         let Study::Map { grid, .. } = known.wish.study else { return None };
         let own: Vec<Cell> = known.places.iter().map(|answer| cell(answer.as_ref(), quantity)).collect();
         let cells: Vec<Cell> = (0..own.len()).map(|index| own[coarser(&grid, index, &own)]).collect();
-        let range = cells.iter().fold(None, |range: Option<[f64; 2]>, cell| match cell {
+        let found = cells.iter().fold(None, |range: Option<[f64; 2]>, cell| match cell {
             Cell::Value(value) => {
                 let [low, high] = range.unwrap_or([*value; 2]);
                 Some([low.min(*value), high.max(*value)])
             }
             _ => range,
         });
-        let largest = range.map(|[_, high]| high);
-        let range = range.map(|[low, high]| match quantity {
+        let range = found.map(|[low, high]| match quantity {
             MapQuantity::Growth => {
                 let end = if low < 0.0 { high.min(-2.0 * low).max(-low) } else { high };
                 [-end, end]
@@ -77,8 +81,15 @@ impl Picture {
             Some(Answer::Critical { verdict: Verdict::NoneUpTo(speed), .. }) => Some(*speed),
             _ => None,
         });
-        let beyond = largest > range.map(|[_, high]| high);
-        Some(Self { none_up_to: none_up_to.reduce(f64::max), grid, quantity, cells, range, beyond })
+        let none_up_to = none_up_to.reduce(f64::max);
+        let (extremes, finest) = (extremes(&own), finest(&grid, &known.places));
+        Some(Self { grid, quantity, cells, found, range, extremes, finest, none_up_to })
+    }
+
+    /// Whether some values lie below the range of the colours, and whether some lie above it.
+    pub fn beyond(&self) -> [bool; 2] {
+        let ends = self.found.zip(self.range);
+        ends.map_or([false; 2], |([least, largest], [low, high])| [least < low, largest > high])
     }
 
     /// Where a value lies in the range of all, from 0 to 1.
@@ -99,47 +110,54 @@ impl Picture {
         self.quantity == MapQuantity::Growth && matches!(cell, Cell::Value(rate) if rate > 0.0)
     }
 
-    /// Where growth rates are zero: lines from [x, y] to [x, y] in m, each within one rectangle of four neighbours. Where one
-    /// of the four has no value there is none.
-    pub fn zero_line(&self) -> Vec<[[f64; 2]; 2]> {
-        let Grid { nx, ny, .. } = self.grid;
-        let mut lines = Vec::new();
-        if self.quantity != MapQuantity::Growth {
-            return lines;
+    /// The values at the points that are known, after so many passes of a filter where all are known, and fewer where they
+    /// are farther apart; none of classes.
+    pub fn field(&self, passes: usize) -> Option<Field> {
+        let finest = self.finest.filter(|_| self.found.is_some())?;
+        let value = |cell: &Cell| if let Cell::Value(value) = cell { Some(self.limited(*value)) } else { None };
+        let all = Field { grid: self.grid, values: self.cells.iter().map(value).collect() };
+        Some((0..passes / finest).fold(all.thinned(finest), |field, _| field.smoothed()))
+    }
+
+    /// A value as it counts among its neighbours: growth beyond the end of the range would drown all that is around it.
+    fn limited(&self, value: f64) -> f64 {
+        match self.range.filter(|_| self.quantity == MapQuantity::Growth) {
+            Some([low, high]) => value.max(low).min(high),
+            None => value,
         }
-        for (row, column) in (0..ny.saturating_sub(1)).flat_map(|row| (0..nx.saturating_sub(1)).map(move |c| (row, c)))
-        {
-            // Around the rectangle.
-            let corners = [(0, 0), (0, 1), (1, 1), (1, 0)].map(|(up, right)| (row + up) * nx + column + right);
-            let rates = corners.map(|index| match self.cells[index] {
-                Cell::Value(rate) => Some(rate),
+    }
+
+    /// The same with points that have no equilibrium showing what their neighbours let expect, so that colours and contours
+    /// go on up to the border of the feasible region and somewhat beyond.
+    pub fn spread(&self) -> Self {
+        let spread =
+            |(index, &cell): (usize, &Cell)| if cell == Cell::Infeasible { self.expected(index) } else { cell };
+        Self { cells: self.cells.iter().enumerate().map(spread).collect(), ..self.clone() }
+    }
+
+    /// What a point without an equilibrium would show: values go on as they do towards it.
+    fn expected(&self, index: usize) -> Cell {
+        let (column, row) = (index % self.grid.nx, index / self.grid.nx);
+        // The point so many steps away.
+        let at = |[right, up]: [isize; 2], steps: isize| {
+            let column = column.checked_add_signed(steps * right).filter(|column| *column < self.grid.nx)?;
+            let row = row.checked_add_signed(steps * up).filter(|row| *row < self.grid.ny)?;
+            Some(self.cells[row * self.grid.nx + column])
+        };
+        let around = [[1, 0], [0, 1], [-1, 0], [0, -1], [1, 1], [-1, 1], [-1, -1], [1, -1]];
+        let values: Vec<f64> = around
+            .into_iter()
+            .filter_map(|way| match (at(way, 1), at(way, 2)) {
+                (Some(Cell::Value(near)), Some(Cell::Value(far))) => Some(2.0 * self.limited(near) - self.limited(far)),
+                (Some(Cell::Value(near)), _) => Some(self.limited(near)),
                 _ => None,
-            });
-            let [Some(a), Some(b), Some(c), Some(d)] = rates else { continue };
-            let rates = [a, b, c, d];
-            let crossing = |side: usize| {
-                let (from, to) = (side, (side + 1) % 4);
-                ((rates[from] > 0.0) != (rates[to] > 0.0)).then(|| {
-                    let part = rates[from] / (rates[from] - rates[to]);
-                    let [from, to] = [from, to].map(|corner| self.grid.position(corners[corner]));
-                    <[f64; 2]>::from(from + (to - from) * part)
-                })
-            };
-            match [crossing(0), crossing(1), crossing(2), crossing(3)] {
-                [Some(a), Some(b), Some(c), Some(d)] => {
-                    // A saddle: the value in the middle tells which corners belong together.
-                    let together = (rates.iter().sum::<f64>() > 0.0) == (rates[0] > 0.0);
-                    lines.extend(if together { [[a, b], [c, d]] } else { [[d, a], [b, c]] });
-                }
-                some => {
-                    let ends: Vec<[f64; 2]> = some.into_iter().flatten().collect();
-                    if let [from, to] = ends[..] {
-                        lines.push([from, to]);
-                    }
-                }
-            }
+            })
+            .collect();
+        if values.is_empty() {
+            let other = around.into_iter().filter_map(|way| at(way, 1)).find(|cell| *cell != Cell::Infeasible);
+            return other.unwrap_or(Cell::Infeasible);
         }
-        lines
+        Cell::Value(self.limited(values.iter().sum::<f64>() / values.len() as f64))
     }
 
     /// What is to be seen at `pos_in_world`: between points with values the value in between, else what the nearest
@@ -216,10 +234,33 @@ impl Picture {
     }
 }
 
+/// The least and the largest value, each with its place.
+fn extremes(cells: &[Cell]) -> Option<[(usize, f64); 2]> {
+    let values = || {
+        let value = |(index, cell): (usize, &Cell)| if let Cell::Value(v) = cell { Some((index, *v)) } else { None };
+        cells.iter().enumerate().filter_map(value)
+    };
+    let lowest = values().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    // The first of equal ones, as below.
+    let highest = values().reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    Some([lowest, highest])
+}
+
+/// The least step at which all points of a coarser map are known.
+fn finest(grid: &Grid, places: &[Option<Answer>]) -> Option<usize> {
+    [1, 2, 4, COARSEST].into_iter().find(|&step| {
+        let mut rows = (0..grid.ny).step_by(step);
+        !grid.is_empty()
+            && rows.all(|row| (0..grid.nx).step_by(step).all(|column| places[row * grid.nx + column].is_some()))
+    })
+}
+
 fn cell(answer: Option<&Answer>, quantity: MapQuantity) -> Cell {
     match answer {
-        Some(Answer::Critical { verdict, .. }) => match verdict {
+        Some(Answer::Critical { verdict, wave_limit, .. }) => match verdict {
             Verdict::Infeasible => Cell::Infeasible,
+            // Statics are enough for it.
+            _ if quantity == MapQuantity::Waves => wave_limit.map_or(Cell::Failed, Cell::Value),
             Verdict::Unknown | Verdict::NotConverged => Cell::Failed,
             Verdict::NoneUpTo(_) => Cell::NoneUpTo,
             Verdict::Critical(critical) => show(critical, quantity),
@@ -227,7 +268,7 @@ fn cell(answer: Option<&Answer>, quantity: MapQuantity) -> Cell {
         Some(Answer::Growth(Ok(rate))) if quantity == MapQuantity::Growth => Cell::Value(*rate),
         Some(Answer::Growth(Err(NoEigenvalues::Infeasible))) => Cell::Infeasible,
         Some(Answer::Growth(Err(NoEigenvalues::Failed))) => Cell::Failed,
-        Some(Answer::Growth(_) | Answer::Spectrum(_) | Answer::Modes(_)) | None => Cell::Unknown,
+        _ => Cell::Unknown,
     }
 }
 
@@ -237,7 +278,7 @@ fn show(critical: &Critical, quantity: MapQuantity) -> Cell {
         MapQuantity::Frequency => Cell::Value(critical.frequency_hz()),
         MapQuantity::Kind => Cell::Class(usize::from(critical.kind == Instability::Divergence)),
         MapQuantity::Cable => Cell::Class(critical.cable),
-        MapQuantity::Growth => Cell::Unknown,
+        MapQuantity::Growth | MapQuantity::Waves => Cell::Unknown,
     }
 }
 
@@ -353,7 +394,7 @@ mod tests {
 
         let rates = known(|column, _| Some(Answer::Growth(Ok(if column > 30 { 200.0 } else { -0.2 }))));
         let picture = Picture::new(&rates, MapQuantity::Growth).expect("a map");
-        assert_eq!((picture.range, picture.beyond), (Some([-0.4, 0.4]), true));
+        assert_eq!((picture.range, picture.beyond()), (Some([-0.4, 0.4]), [false, true]));
         assert!(picture.labels().iter().all(|(_, cell)| *cell == Cell::Value(200.0)) && !picture.labels().is_empty());
     }
 
@@ -393,24 +434,54 @@ mod tests {
         let middle = |picture: &Picture| (picture.part(0.0) - 0.5).abs() < 1e-12;
         assert!((low + high).abs() < 1e-12 && middle(&picture), "{low} {high}");
         assert!(picture.part(0.01) > 0.5 && picture.part(-0.01) < 0.5);
-        let lines = picture.zero_line();
-        assert!(lines.len() > 40, "{}", lines.len());
-        for end in lines.iter().flatten() {
-            let Cell::Value(seen) = picture.at(Vec2::from(*end)) else { panic!("no value on the line") };
-            assert!(seen.abs() < 1e-12, "{seen} at {end:?}");
-            assert!(rate(end[0], end[1]).abs() < 2e-3, "{end:?}");
-        }
-        // Every end but those at the border belongs to two lines.
-        for end in lines.iter().flatten().filter(|end| end[1].abs() < 4.999) {
-            let near = |other: &&[f64; 2]| (other[0] - end[0]).hypot(other[1] - end[1]) < 1e-9;
-            assert_eq!(lines.iter().flatten().filter(near).count(), 2, "{end:?}");
-        }
+        let [line] = &picture.field(0).expect("values").contour(0.0)[..] else { panic!("one line") };
+        assert!(line.closed && line.points.len() > 40, "{line:?}");
+        assert!(line.points.iter().all(|&[x, y]| rate(x, y).abs() < 2e-3), "{line:?}");
         // All of one sign, or with gaps: no line, and zero in the middle all the same.
         for sign in [-1.0, 1.0] {
             let one_sign = known(|column, row| (column != 7).then_some(Answer::Growth(Ok(sign * (0.1 + row as f64)))));
             let picture = Picture::new(&one_sign, MapQuantity::Growth).expect("a map");
-            assert!(picture.zero_line().is_empty() && middle(&picture));
+            assert!(picture.field(0).expect("values").contour(0.0).is_empty() && middle(&picture));
         }
+    }
+
+    #[test]
+    fn lowest_and_highest_are_those_of_the_known_points_and_lines_need_all_of_a_coarse_map() {
+        let bowl = |column: usize, row: usize| critical((column as f64 - 12.0).hypot(row as f64 - 8.0), 0);
+        let all = Picture::new(&known(|column, row| Some(bowl(column, row))), MapQuantity::Speed).expect("a map");
+        let far = 28.0_f64.hypot(12.0);
+        assert_eq!((all.extremes, all.finest), (Some([(8 * 41 + 12, 0.0), (20 * 41 + 40, far)]), Some(1)));
+        assert_eq!((all.found, all.beyond()), (Some([0.0, far]), [false; 2]));
+        let coarse = known(|column, row| (column % 4 == 0 && row % 4 == 0).then(|| bowl(column, row)));
+        let coarse = Picture::new(&coarse, MapQuantity::Speed).expect("a map");
+        assert_eq!((coarse.extremes, coarse.finest), (all.extremes, Some(4)));
+        assert_eq!(coarse.field(2).map(|field| (field.grid.nx, field.grid.ny)), Some((11, 6)));
+        let one = Picture::new(&known(|column, _| (column == 3).then(|| bowl(3, 0))), MapQuantity::Speed);
+        assert!(one.expect("a map").field(2).is_none());
+        assert!(Picture::new(&known(|_, _| Some(infeasible())), MapQuantity::Speed).expect("a map").extremes.is_none());
+    }
+
+    #[test]
+    fn wave_limits_are_known_wherever_there_are_statics() {
+        let waves = known(|column, _| {
+            let verdict = if column < 20 { Verdict::NotConverged } else { Verdict::NoneUpTo(40.0) };
+            Some(Answer::Critical { direction: Vec2::x(), verdict, wave_limit: Some(12.5) })
+        });
+        let picture = Picture::new(&waves, MapQuantity::Waves).expect("a map");
+        assert!(picture.cells.iter().all(|cell| *cell == Cell::Value(12.5)));
+        let at = super::super::reading(&waves, 30, Vec2::zeros(), Settings::default(), None);
+        assert!(at.contains("no critical speed up to 40 m/s") && at.contains("wave limit 12.5 m/s"), "{at}");
+        let nothing = Picture::new(&known(|_, _| Some(infeasible())), MapQuantity::Waves).expect("a map");
+        assert!(nothing.cells.iter().all(|cell| *cell == Cell::Infeasible));
+    }
+
+    #[test]
+    fn colours_go_on_beyond_the_last_point_of_the_region() {
+        let half = known(|column, _| Some(if column < 20 { infeasible() } else { critical(column as f64, 0) }));
+        let picture = Picture::new(&half, MapQuantity::Speed).expect("a map").spread();
+        // Speeds rise by one from column to column, the first one being the 20th.
+        assert_eq!(picture.at(Vec2::new(-0.5, 0.0)), Cell::Value(19.0));
+        assert_eq!(picture.at(Vec2::new(-1.0, 0.0)), Cell::Infeasible);
     }
 
     #[test]

@@ -1,8 +1,9 @@
-//! Which knob to turn: by how much the critical speed changes with each parameter.
+//! What to change: by how much the critical speed changes with each number of the robot.
 
-use eframe::egui::{Align2, FontId, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
+use eframe::egui::{Align2, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo};
 
-use super::{STALE, explain};
+use super::axis::signed;
+use super::common;
 use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
@@ -12,31 +13,24 @@ use crate::robot::TensionLaw;
 use crate::scenario::{Parameter, Scenario};
 use crate::study::{Knob, Sensitivity};
 
-/// Height of a bar with its room, in points.
-const ROW: f32 = 26.0;
-/// Room for names and for values.
-const NAME: f32 = 122.0;
-const VALUE: f32 = 58.0;
+/// What the plot shows, in plain words.
+pub const MEANING: &str = "How much the critical speed at this pose changes when one value grows by one percent and all others \
+    stay: to the right it rises, to the left it falls. The numbers are derivatives at the present design, exact for small \
+    changes; a large change may bring another mode to the front. A tension's bar is for all of its law at once.";
+
+/// Room for names and for values, in sizes of the text.
+const NAME: f32 = 9.4;
+const VALUE: f32 = 4.4;
 
 /// Draws the bars; a click goes to the control.
 pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     let Facts { document, answers, pinned, .. } = facts;
     let uncertainty = uncertainty(facts.share());
     let Some((found, current)) = answers.sensitivities() else {
-        ui.weak("Not computed yet.");
+        common::say(ui, "Not computed yet.");
         return;
     };
-    ui.weak(if current {
-        "Percent of critical speed per percent of each value. Click a bar to turn it."
-    } else {
-        STALE
-    });
-    explain(
-        ui,
-        "How much the critical speed at this pose changes when one value grows by one percent and all others stay: to \
-         the right it rises, to the left it falls. The numbers are derivatives at the present design, exact for small \
-         changes; a large change may bring another mode to the front. A tension's bar is for all of its law at once.",
-    );
+    common::say(ui, "Percent of critical speed per percent of each value.");
     let mut found = match found {
         Ok(found) => found.clone(),
         Err(reason) => {
@@ -47,6 +41,10 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     found.sort_by(|a, b| b.speed.abs().total_cmp(&a.speed.abs()));
     let largest = found.first().map_or(1.0, |first| first.speed.abs()).max(1e-12);
     let before = pinned.and_then(|pinned| pinned.sensitivities());
+    if before.is_some() {
+        ui.colored_label(theme::pinned(ui.visuals()), "The upright marks are those of the pinned design.");
+    }
+    ui.spacing_mut().item_spacing.y = 0.0;
     for one in &found {
         let then = before.and_then(|all| all.iter().find(|other| other.knob == one.knob)).map(|other| other.speed);
         if bar(ui, one, [largest, uncertainty], then, current) {
@@ -57,41 +55,42 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
 
 /// One bar; whether it was clicked.
 fn bar(ui: &mut Ui, one: &Sensitivity, [largest, uncertainty]: [f64; 2], then: Option<f64>, current: bool) -> bool {
-    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), ROW), Sense::click());
+    let height = ui.spacing().interact_size.y.max(26.0);
+    let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), height), Sense::click());
     let name = name(one.knob);
     let value = at_least_the_place(one.speed, uncertainty);
     let text = format!("{name}: {value} % per percent");
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &text));
-    let visuals = ui.visuals();
+    let tokens = theme::tokens(ui.visuals());
     let painter = ui.painter_at(rect);
-    if response.hovered() || response.has_focus() {
-        painter.rect_filled(rect, 3.0, visuals.widgets.hovered.weak_bg_fill);
+    if response.hovered() {
+        painter.rect_filled(rect, 4.0, tokens.field);
     }
+    if response.has_focus() {
+        painter.rect_stroke(rect, 4.0, Stroke::new(2.0, tokens.accent), StrokeKind::Inside);
+    }
+    // The side of the middle says the same as the colour.
     let colour = match (current, one.speed > 0.0) {
-        (false, _) => visuals.weak_text_color(),
-        (true, true) => theme::calm(visuals),
-        (true, false) => theme::warning(visuals),
+        (false, _) => tokens.mute,
+        (true, true) => tokens.stable,
+        (true, false) => tokens.critical,
     };
-    let font = FontId::proportional(13.0);
-    painter.text(
-        rect.left_center() + Vec2::new(4.0, 0.0),
-        Align2::LEFT_CENTER,
-        &name,
-        font.clone(),
-        visuals.text_color(),
-    );
-    painter.text(rect.right_center() - Vec2::new(4.0, 0.0), Align2::RIGHT_CENTER, value, font, visuals.text_color());
-    let room = Rect::from_min_max(rect.min + Vec2::new(NAME, 0.0), rect.max - Vec2::new(VALUE, 0.0));
+    let words = if current { tokens.text } else { tokens.weak };
+    let font = TextStyle::Body.resolve(ui.style());
+    let size = font.size;
+    painter.text(rect.left_center() + Vec2::new(4.0, 0.0), Align2::LEFT_CENTER, &name, font.clone(), words);
+    painter.text(rect.right_center() - Vec2::new(4.0, 0.0), Align2::RIGHT_CENTER, value, font, words);
+    let room = Rect::from_min_max(rect.min + Vec2::new(NAME * size, 0.0), rect.max - Vec2::new(VALUE * size, 0.0));
     let middle = room.center().x;
     #[expect(clippy::cast_possible_truncation)] // A part of one.
     let end = |speed: f64| middle + 0.5 * room.width() * (speed / largest).clamp(-1.0, 1.0) as f32;
     let y = room.y_range();
     let drawn =
-        Rect::from_x_y_ranges(middle.min(end(one.speed))..=middle.max(end(one.speed)), y.min + 5.0..=y.max - 5.0);
+        Rect::from_x_y_ranges(middle.min(end(one.speed))..=middle.max(end(one.speed)), y.min + 6.0..=y.max - 6.0);
     painter.rect_filled(drawn, 2.0, colour);
-    painter.vline(middle, y, Stroke::new(1.0, visuals.weak_text_color()));
+    painter.vline(middle, y, Stroke::new(1.0, tokens.frame));
     if let Some(then) = then {
-        painter.vline(end(then), y, Stroke::new(2.0, theme::pinned(visuals)));
+        painter.vline(end(then), y, Stroke::new(2.0, theme::pinned(ui.visuals())));
     }
     let frequency = one.frequency.map_or_else(String::new, |change| format!("\nFrequency {change:+} % per percent"));
     response.explained(format!("Critical speed {:+} % per percent{frequency}", one.speed)).clicked()
@@ -105,7 +104,7 @@ fn uncertainty(share: Option<f64>) -> f64 {
 
 /// A derivative with its sign; one that is below what is certain is 0.
 fn at_least_the_place(value: f64, uncertainty: f64) -> String {
-    if value.abs() < 0.1 * uncertainty { "0".into() } else { digits::with_sign(value, Some(uncertainty)) }
+    if value.abs() < 0.1 * uncertainty { "0".into() } else { signed(&digits::with_sign(value, Some(uncertainty))) }
 }
 
 fn name(knob: Knob) -> String {
@@ -166,7 +165,10 @@ mod tests {
                 let shown = match number {
                     Parameter::Tension(_) => true,
                     Parameter::Horizontal(cable, _) => fields::law(cable)[0] == number,
-                    _ => fields::BODY.into_iter().chain(fields::MODEL).any(|other| other == number),
+                    _ => {
+                        let groups = [&fields::ROPE[..], &fields::PLATFORM, &fields::DAMPING, &[Parameter::Elements]];
+                        groups.concat().contains(&number)
+                    }
                 };
                 assert!(shown, "{}: {number:?}", preset.name);
             }

@@ -1,0 +1,156 @@
+//! The plots: groups and tabs to choose them by, and each in a file of its own.
+
+mod axis;
+mod campbell;
+mod chart;
+mod common;
+mod directions;
+mod eigenvalues;
+mod growth;
+mod header;
+mod knobs;
+mod labels;
+mod line;
+mod mesh;
+mod modes;
+mod range;
+
+use eframe::egui::{Align, Id, Label, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
+
+pub use common::Slot;
+pub use line::strip;
+
+use crate::app::canvas::View;
+use crate::app::command::Command;
+use crate::app::facts::Facts;
+use crate::app::gestures;
+use crate::app::state::{Plot, PlotGroup, Session, UiState};
+use common::Place;
+use header::Header;
+
+/// Room beside the tabs under the robot, in points.
+const MARGIN: f32 = 12.0;
+/// With less height than this, in points, a plot tells nothing, and the panel scrolls.
+const LEAST: f32 = 190.0;
+
+/// Draws the plot of this slot with what it is chosen by, in all the room there is. In the dock the study along the line is
+/// on the horizontal axis of `view`. Gives where the plot itself is.
+pub fn ui(
+    slot: Slot,
+    state: &mut UiState,
+    session: &mut Session,
+    ui: &mut Ui,
+    facts: Facts<'_>,
+    view: Option<&View>,
+    commands: &mut Vec<Command>,
+) -> Rect {
+    let wheel = !slot.is_sheet() && !session.embedded;
+    let mut open = match slot {
+        Slot::Right | Slot::Sheet => state.plot,
+        Slot::Second => state.second,
+        Slot::Dock | Slot::Under => state.dock,
+        Slot::Present => Plot::Line,
+        Slot::Large => session.large.unwrap_or(state.plot),
+    };
+    if slot == Slot::Dock && open.group() != PlotGroup::Workspace {
+        open = Plot::Line;
+    }
+    let explanation = |plot| explanation(plot, facts);
+    // For a picture of the plot: where it was drawn last.
+    let shot_id = Id::unique(("picture of a plot", slot));
+    let shot = ui.data(|data| data.get_temp(shot_id)).unwrap_or(Rect::NOTHING);
+    let mut header = Header {
+        open: &mut open,
+        large: &mut session.large,
+        camera: &mut session.camera,
+        shot,
+        explanation: &explanation,
+    };
+    let rect = ui.push_id(("plots", slot), |ui| {
+        if slot != Slot::Present {
+            // A plot under the robot has its whole width, its tabs do not.
+            let margin = if slot.is_under_the_robot() { MARGIN } else { 0.0 };
+            let inside = ui.available_rect_before_wrap().shrink2(Vec2::new(margin, 0.0));
+            ui.scope_builder(UiBuilder::new().max_rect(inside), |ui| header.ui(slot, wheel, ui, facts, commands));
+        }
+        let place = Place { slot, plot: *header.open, wheel };
+        let foot =
+            if matches!(slot, Slot::Dock | Slot::Present) { 0.0 } else { ui.spacing().interact_size.y.max(28.0) + 4.0 };
+        let room = ui.available_rect_before_wrap();
+        let rect = Rect::from_min_max(room.min, room.max - Vec2::new(0.0, foot));
+        ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
+            let told = slot == Slot::Under && header::explains(ui.ctx(), place);
+            if slot.is_under_the_robot() && place.plot == Plot::Line && !told {
+                line::ui(place, view, ui, facts, commands);
+            } else {
+                gestures::scroll(ui, |ui| explained(place, view, &mut state.campbell_hz, ui, facts, commands));
+            }
+        });
+        if foot > 0.0 {
+            let margin = if slot == Slot::Under { MARGIN } else { 0.0 };
+            let below = Rect::from_min_max(rect.left_bottom(), room.max).shrink2(Vec2::new(margin, 0.0));
+            ui.scope_builder(UiBuilder::new().max_rect(below), |ui| header.foot(place, ui, facts, commands));
+        }
+        rect
+    });
+    let rect = rect.inner;
+    ui.data_mut(|data| data.insert_temp(shot_id, rect.intersect(ui.clip_rect())));
+    match slot {
+        Slot::Right | Slot::Sheet => state.plot = open,
+        Slot::Second => state.second = open,
+        Slot::Dock | Slot::Under => state.dock = open,
+        Slot::Present => {}
+        // Unless it has just been sent back to its size.
+        Slot::Large => session.large = session.large.map(|_| open),
+    }
+    rect
+}
+
+/// Draws a plot, and below it what it means, where that is asked for.
+fn explained(
+    place: Place,
+    view: Option<&View>,
+    highest: &mut f64,
+    ui: &mut Ui,
+    facts: Facts<'_>,
+    commands: &mut Vec<Command>,
+) {
+    let text = (place.slot != Slot::Dock && header::explains(ui.ctx(), place)).then(|| explanation(place.plot, facts));
+    let size = ui.available_size();
+    let below = text.as_ref().map_or(0.0, |text| {
+        let font = TextStyle::Body.resolve(ui.style());
+        let galley = ui.painter().layout(text.clone(), font, ui.visuals().text_color(), size.x);
+        galley.size().y + ui.spacing().item_spacing.y
+    });
+    let room = Vec2::new(size.x, (size.y - below).max(LEAST));
+    ui.allocate_ui_with_layout(room, Layout::top_down(Align::Min), |ui| {
+        ui.set_min_size(room);
+        match place.plot {
+            Plot::Eigenvalues => eigenvalues::ui(place, ui, facts, commands),
+            Plot::Modes => modes::ui(ui, facts, commands),
+            Plot::Growth => growth::ui(place, ui, facts),
+            Plot::Line => line::ui(place, view, ui, facts, commands),
+            Plot::Directions => directions::ui(place, ui, facts, commands),
+            Plot::Campbell => campbell::ui(place, highest, ui, facts, commands),
+            Plot::Mesh => mesh::ui(place, ui, facts),
+            Plot::Knobs => knobs::ui(ui, facts, commands),
+        }
+    });
+    if let Some(text) = text {
+        ui.add(Label::new(text).wrap());
+    }
+}
+
+/// What a plot shows, in plain words, for those who ask.
+fn explanation(plot: Plot, facts: Facts<'_>) -> String {
+    match plot {
+        Plot::Eigenvalues => eigenvalues::MEANING.into(),
+        Plot::Modes => modes::MEANING.into(),
+        Plot::Growth => growth::MEANING.into(),
+        Plot::Line => line::meaning(facts),
+        Plot::Directions => directions::MEANING.into(),
+        Plot::Campbell => campbell::MEANING.into(),
+        Plot::Mesh => mesh::MEANING.into(),
+        Plot::Knobs => knobs::MEANING.into(),
+    }
+}
