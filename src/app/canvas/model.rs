@@ -188,7 +188,7 @@ pub fn advance(playback: &mut Playback, answers: &Answers, seconds: f64) {
     }
 }
 
-/// Stops what moves on the canvas, and goes on by this number of steps, 24 of which are one oscillation.
+/// Stops what moves on the canvas, and goes on by this number of steps. An oscillation has 24 steps.
 pub fn step(playback: &mut Playback, answers: &Answers, steps: f64) {
     match (playback.movement, answers.shape()) {
         (Movement::LetGo, Some(mode)) => {

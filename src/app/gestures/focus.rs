@@ -7,7 +7,7 @@ use eframe::egui::{Context, Event, Id, Key, Memory, Modifiers, Plugin, RawInput,
 
 use crate::app::{regions, tree};
 
-/// So many passes egui needs to make a tree after it was asked for the first one.
+/// After the first request egui needs at most this many passes to make a tree.
 const PASSES: u8 = 3;
 
 /// An end of the app, as Tab goes.
@@ -32,7 +32,7 @@ pub(super) struct Focus {
     left: Option<End>,
     /// Whether the stops are there in this pass.
     guarded: bool,
-    /// F6 was pressed, backwards or not, and there is no tree to go by for so many passes at most.
+    /// F6 was pressed while there was no tree: whether backwards, and how many more passes to wait for one.
     waits: Option<(bool, u8)>,
 }
 

@@ -18,10 +18,10 @@ pub struct Line {
 /// An edge of the grid: the numbers of its two points, the smaller one first.
 type Edge = [usize; 2];
 
-/// The lines between the points of `grid` that are inside and those that are not. A cell with a corner of which that is not
-/// known has none. `crossing` tells where the line crosses an edge between two such points. Where opposite corners are alike
-/// and neighbours are not, `middle` tells whether the middle of the cell is inside, by its corners from the lower left one
-/// round.
+/// The lines between the points of `grid` that are inside and those that are not. A cell has no line
+/// where one of its corners is not known. `crossing` tells where the line crosses an edge between two such points. Where
+/// opposite corners are alike and neighbours are not, `middle` tells whether the middle of the cell is inside, by its
+/// corners from the lower left one round.
 pub fn trace(
     grid: &Grid,
     inside: impl Fn(usize) -> Option<bool>,

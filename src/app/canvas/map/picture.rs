@@ -110,8 +110,8 @@ impl Picture {
         self.quantity == MapQuantity::Growth && matches!(cell, Cell::Value(rate) if rate > 0.0)
     }
 
-    /// The values at the points that are known, after so many passes of a filter where all are known, and fewer where they
-    /// are farther apart; none of classes.
+    /// The values at the points that are known. They have gone through `passes` of a filter, or through fewer while only a
+    /// coarser map is known. Classes have no values.
     pub fn field(&self, passes: usize) -> Option<Field> {
         let finest = self.finest.filter(|_| self.found.is_some())?;
         let value = |cell: &Cell| if let Cell::Value(value) = cell { Some(self.limited(*value)) } else { None };

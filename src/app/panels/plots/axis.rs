@@ -2,7 +2,7 @@
 
 use crate::app::round::round_step;
 
-/// Nothing is drawn farther away than so many lengths of the axis: the screen's numbers end somewhere.
+/// Nothing is drawn farther away than this many lengths of the axis, since the screen's numbers end somewhere.
 const FARTHEST: f64 = 1e4;
 
 /// An axis of a chart.
@@ -92,7 +92,7 @@ fn evenly_spaced(low: f64, high: f64, most: usize) -> Vec<f64> {
     (first..=last).take(2 * most + 2).map(|tick| tick as f64 * step).collect()
 }
 
-/// 1, 2, 5 times powers of ten, or so many of them that there is room.
+/// 1, 2 and 5 times powers of ten. Where these are more than `most`, some are left out.
 fn by_decades(low: f64, high: f64, most: usize) -> Vec<f64> {
     // Of a positive range of numbers: from -308 to 308.
     #[expect(clippy::cast_possible_truncation)]

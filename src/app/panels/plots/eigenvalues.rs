@@ -31,7 +31,7 @@ const REACH: f32 = 24.0;
 const PLOT: f32 = 300.0;
 /// The table's width beside the plot.
 const TABLE: f32 = 190.0;
-/// The modes that matter are the lowest ones, so many of them.
+/// This many of the lowest modes matter.
 const LOWEST: usize = 6;
 /// The rows of the table below the plot, at most: these modes and what the columns are.
 const ROWS: f32 = 7.0;

@@ -5,7 +5,7 @@ use eframe::egui::{Context, Id, InputState, Response, Ui, Vec2};
 use super::axis::Axis;
 use crate::app::gestures;
 
-/// Nobody needs to see less than this part of what matters, or more than so many times as much.
+/// The least and the most that can be shown, as multiples of what matters.
 const ZOOM: [f64; 2] = [1e-6, 1e3];
 
 /// Which part of a chart is on show.
@@ -91,7 +91,7 @@ pub fn turn(ui: &Ui, response: &Response, chart: Id, axes: [Axis; 2], fit: [[f64
     Range::Own(bounds).show(ui.ctx(), chart);
 }
 
-/// What an axis shows once it has been magnified about a point of the screen, and moved by so many points.
+/// What an axis shows once it has been magnified about a point of the screen, and moved by `moved` points.
 fn turned(axis: &Axis, fixed: Option<f32>, factor: f64, moved: f32) -> [f64; 2] {
     #[expect(clippy::cast_possible_truncation)] // Screen coordinates are f32.
     let scale = (1.0 / factor) as f32;
