@@ -230,9 +230,9 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
             Study::Line { line: Line::through(&robot, &motion, 3), limit },
             Study::Map { grid, directions: Directions::Worst(Directions::WORST_OF), mapped },
             Study::Map { grid, directions: Directions::One(direction), mapped: growth },
-            Study::Polar { position, count: 3, limit },
-            Study::Speeds { position, direction, to: 9.0, count: 3 },
-            Study::Elements { position, direction, counts: vec![2, 3], limit },
+            Study::Directions { position, count: 3, limit },
+            Study::Campbell { position, direction, to: 9.0, count: 3 },
+            Study::Mesh { position, direction, counts: vec![2, 3], limit },
             Study::Border { grid },
         ];
         let study = studies[i % studies.len()].clone();
@@ -328,7 +328,7 @@ fn is_small(scenario: &Scenario) -> bool {
 /// Makes a study small. Numbers that are not allowed stay.
 fn bound(study: &mut Study) {
     match study {
-        Study::Line { limit, .. } | Study::Polar { limit, .. } => bound_speed(limit),
+        Study::Line { limit, .. } | Study::Directions { limit, .. } => bound_speed(limit),
         Study::Map { mapped, directions, .. } => {
             if let Mapped::Critical { limit } = mapped {
                 bound_speed(limit);
@@ -340,7 +340,7 @@ fn bound(study: &mut Study) {
                 *count = (*count).min(Directions::WORST_OF);
             }
         }
-        Study::Elements { counts, limit, .. } => {
+        Study::Mesh { counts, limit, .. } => {
             for count in counts {
                 *count = (*count).min(MOST_ELEMENTS / 4);
             }
@@ -353,7 +353,7 @@ fn bound(study: &mut Study) {
             }
         }
         Study::Border { grid } => grid.nx = grid.nx.min(MOST_ELEMENTS),
-        Study::Speeds { .. } => {}
+        Study::Campbell { .. } => {}
     }
 }
 

@@ -524,7 +524,7 @@ fn the_line_shows_both_findings_and_follows_the_robot() {
 fn one_click_moves_in_the_worst_direction() {
     let mut app = app();
     open_plot(&mut app, "Directions");
-    finish(&mut app, Topic::Polar);
+    finish(&mut app, Topic::Directions);
     let lowest = (0..72)
         .filter_map(|k| {
             let (sine, cosine) = (f64::from(k) * 5.0).to_radians().sin_cos();
@@ -538,7 +538,7 @@ fn one_click_moves_in_the_worst_direction() {
     settle(&mut app);
     let speed = report(&app).critical.expect("a critical speed").speed;
     assert!((speed - lowest).abs() < 1e-6, "{speed} in place of {lowest}");
-    assert!(app.state().study(Topic::Polar).2, "the diagram does not depend on the direction");
+    assert!(app.state().study(Topic::Directions).2, "the diagram does not depend on the direction");
     nothing_shows_nan(&app);
 }
 
@@ -561,11 +561,11 @@ fn the_mesh_tells_its_error() {
     let mut app = app();
     open_groups(&mut app);
     open_plot(&mut app, "Mesh error");
-    finish(&mut app, Topic::Convergence);
+    finish(&mut app, Topic::Mesh);
     words(&app, "With 10 elements the critical speed is ");
     type_value(&mut app, "Elements per cable n", "20");
     words(&app, "With 20 elements the critical speed is ");
-    assert!(app.state().study(Topic::Convergence).2, "20 elements were among the meshes");
+    assert!(app.state().study(Topic::Mesh).2, "20 elements were among the meshes");
     nothing_shows_nan(&app);
 }
 

@@ -61,7 +61,7 @@ fn shot(scenario: &Scenario, size: Vec2, theme: Theme, prepare: impl FnOnce(&mut
         app.step();
     }
     prepare(&mut app);
-    for topic in [Topic::Border, Topic::Line, Topic::Polar, Topic::Campbell, Topic::Convergence, Topic::Map] {
+    for topic in [Topic::Border, Topic::Line, Topic::Directions, Topic::Campbell, Topic::Mesh, Topic::Map] {
         wait(&mut app, "a study", |app| !app.at_work().contains(&topic));
     }
     app.run_steps(10);

@@ -51,9 +51,9 @@ fn studies() -> Vec<Study> {
     });
     let mut studies = vec![
         line(11),
-        Study::Polar { position, count: 9, limit: LIMIT },
-        Study::Speeds { position, direction, to: 12.0, count: 13 },
-        Study::Elements { position, direction, counts: vec![8, 2, 4], limit: LIMIT },
+        Study::Directions { position, count: 9, limit: LIMIT },
+        Study::Campbell { position, direction, to: 12.0, count: 13 },
+        Study::Mesh { position, direction, counts: vec![8, 2, 4], limit: LIMIT },
         Study::Modes { spectra: spectra.collect() },
         Study::Border { grid },
     ];
@@ -231,13 +231,13 @@ fn what_cannot_be_begun_is_refused_and_what_is_empty_is_finished() {
     unphysical.scenario = unphysical.scenario.replace("\"mass\": 2", "\"mass\": -2");
     watched.pool.want(unphysical);
     let (position, direction) = (Vec2::zeros(), Vec2::x());
-    watched.pool.want(job(2, Study::Polar { position, count: 4, limit: f64::NAN }));
-    watched.pool.want(job(3, Study::Elements { position, direction, counts: Vec::new(), limit: LIMIT }));
+    watched.pool.want(job(2, Study::Directions { position, count: 4, limit: f64::NAN }));
+    watched.pool.want(job(3, Study::Mesh { position, direction, counts: Vec::new(), limit: LIMIT }));
     let news = watched.pool.poll();
     let [
         StudyNews::Refused { topic: Topic::Map, revision: 1, reason: first },
-        StudyNews::Refused { topic: Topic::Polar, revision: 2, reason: second },
-        StudyNews::Finished { topic: Topic::Convergence, revision: 3 },
+        StudyNews::Refused { topic: Topic::Directions, revision: 2, reason: second },
+        StudyNews::Finished { topic: Topic::Mesh, revision: 3 },
     ] = &news[..]
     else {
         panic!("{news:?}")
@@ -272,10 +272,10 @@ fn numbers_that_are_not_allowed_are_refused() {
         map(grid, ahead, Mapped::Growth { speed: f64::NAN }),
         Study::Border { grid: Grid { high: nowhere, ..grid } },
         Study::Border { grid: Grid { nx: usize::MAX, ..grid } },
-        Study::Polar { position: nowhere, count, limit },
-        Study::Speeds { position, direction, to: f64::NAN, count },
-        Study::Speeds { position, direction: nowhere, to: 9.0, count },
-        Study::Elements { position: nowhere, direction, counts: vec![2], limit },
+        Study::Directions { position: nowhere, count, limit },
+        Study::Campbell { position, direction, to: f64::NAN, count },
+        Study::Campbell { position, direction: nowhere, to: 9.0, count },
+        Study::Mesh { position: nowhere, direction, counts: vec![2], limit },
         Study::Modes { spectra: vec![(f64::NAN, Vec::new())] },
         Study::Modes { spectra: vec![(1.0, vec![Complex::new(0.0, f64::INFINITY)])] },
     ];

@@ -65,7 +65,7 @@ fn every_task_is_the_analysis_of_its_pose() {
     for (study, places) in [
         (Study::Line { line, limit: LIMIT }, (0..5).map(|i| (line.position(i), up_right)).collect::<Vec<_>>()),
         (Study::Map { grid, directions: one, mapped }, (0..20).map(|i| (grid.position(i), up_right)).collect()),
-        (Study::Polar { position, count: 7, limit: LIMIT }, (0..7).map(|i| (position, compass(i, 7))).collect()),
+        (Study::Directions { position, count: 7, limit: LIMIT }, (0..7).map(|i| (position, compass(i, 7))).collect()),
     ] {
         assert_eq!(study.len(), places.len());
         for (i, (position, along)) in places.into_iter().enumerate() {
@@ -83,7 +83,7 @@ fn every_task_is_the_analysis_of_its_pose() {
     assert!(feasible > 10 && infeasible > 5, "{feasible} {infeasible}");
 
     let counts = vec![8, 4, 16, 1000];
-    let study = Study::Elements { position, direction: up_right, counts: counts.clone(), limit: LIMIT };
+    let study = Study::Mesh { position, direction: up_right, counts: counts.clone(), limit: LIMIT };
     for (i, &elements) in counts[..3].iter().enumerate() {
         let robot = Robot::new(RobotSpec { elements, ..paper_spec() }).expect("a robot");
         assert_eq!(critical(&study, &robot, i).1, expected(&robot, position, up_right));
@@ -112,10 +112,10 @@ fn growth_and_spectra_are_those_of_the_pose() {
     let infeasible = Err(NoEigenvalues::Infeasible);
     assert_eq!((growth(Directions::One(direction), 0), growth(Directions::Worst(8), 0)), (infeasible, infeasible));
 
-    let study = Study::Speeds { position, direction, to: 12.0, count: 5 };
+    let study = Study::Campbell { position, direction, to: 12.0, count: 5 };
     let Answer::Spectrum(Ok(eigenvalues)) = study.answer(&robot, 2) else { panic!("no spectrum") };
     assert_eq!(eigenvalues, spectrum.modes().map(|mode| mode.eigenvalue).collect::<Vec<_>>());
-    let nowhere = Study::Speeds { position: Vec2::new(9.0, 0.0), direction, to: 12.0, count: 5 };
+    let nowhere = Study::Campbell { position: Vec2::new(9.0, 0.0), direction, to: 12.0, count: 5 };
     assert_eq!(nowhere.answer(&robot, 2), Answer::Spectrum(Err(NoEigenvalues::Infeasible)));
 }
 
@@ -126,15 +126,15 @@ fn what_is_no_pose_is_infeasible() {
     let mapped = Mapped::Critical { limit: LIMIT };
     let (nowhere, origin) = (Vec2::new(f64::NAN, 0.0), Vec2::zeros());
     for study in [
-        Study::Polar { position: nowhere, count: 1, limit: LIMIT },
-        Study::Elements { position: origin, direction: Vec2::zeros(), counts: vec![10], limit: LIMIT },
+        Study::Directions { position: nowhere, count: 1, limit: LIMIT },
+        Study::Mesh { position: origin, direction: Vec2::zeros(), counts: vec![10], limit: LIMIT },
         Study::Map { grid, directions: Directions::One(nowhere), mapped },
         Study::Map { grid, directions: Directions::Worst(0), mapped },
         Study::Map { grid: Grid { low: nowhere, ..grid }, directions: Directions::Worst(16), mapped },
     ] {
         assert_eq!(critical(&study, &robot, 0).1, Verdict::Infeasible, "{study:?}");
     }
-    let study = Study::Speeds { position: origin, direction: Vec2::x(), to: f64::INFINITY, count: 2 };
+    let study = Study::Campbell { position: origin, direction: Vec2::x(), to: f64::INFINITY, count: 2 };
     assert_eq!(study.answer(&robot, 1), Answer::Spectrum(Err(NoEigenvalues::Infeasible)));
 }
 
@@ -196,7 +196,7 @@ fn orders_are_coarse_first() {
             assert!(order[..coarse].iter().all(|&index| in_it(index)), "every {step}th of {nx} × {ny}");
         }
     }
-    let study = Study::Polar { position: Vec2::zeros(), count: 12, limit: LIMIT };
+    let study = Study::Directions { position: Vec2::zeros(), count: 12, limit: LIMIT };
     assert_eq!(study.order(), [0, 8, 4, 2, 6, 10, 1, 3, 5, 7, 9, 11]);
 }
 
@@ -284,7 +284,7 @@ fn the_worst_direction_is_the_lowest_of_all() {
     let mut compared = 0;
     for index in 0..grid.len() {
         let (direction, worst) = critical(&map, &robot, index);
-        let polar = Study::Polar { position: grid.position(index), count: 16, limit: LIMIT };
+        let polar = Study::Directions { position: grid.position(index), count: 16, limit: LIMIT };
         let singles: Vec<(Vec2, Verdict)> = (0..16).map(|k| critical(&polar, &robot, k)).collect();
         let lowest = singles.iter().filter_map(|(_, single)| speed(single)).reduce(f64::min);
         match lowest {
@@ -448,7 +448,7 @@ proptest! {
     /// Nothing is lost or doubled, and looking more closely changes hardly anything.
     #[test]
     fn tracks_of_random_robots_are_whole((robot, motion) in moving_robot(2..12)) {
-        let study = Study::Speeds { position: motion.position(), direction: motion.direction(), to: 6.0, count: 121 };
+        let study = Study::Campbell { position: motion.position(), direction: motion.direction(), to: 6.0, count: 121 };
         let answers = (0..study.len()).map(|i| match study.answer(&robot, i) {
             Answer::Spectrum(spectrum) => spectrum.ok().map(|values| (evenly(0.0, 6.0, i, 121), values)),
             other => panic!("{other:?}"),
@@ -530,7 +530,7 @@ fn tracks_of_nothing_and_of_gaps() {
 fn double_eigenvalues_are_tracked_once() {
     let spectrum = |linearisation| {
         let robot = Robot::new(RobotSpec { linearisation, ..paper_spec() }).expect("a robot");
-        let study = Study::Speeds { position: Vec2::zeros(), direction: Vec2::x(), to: 4.0, count: 2 };
+        let study = Study::Campbell { position: Vec2::zeros(), direction: Vec2::x(), to: 4.0, count: 2 };
         match study.answer(&robot, 1) {
             Answer::Spectrum(Ok(values)) => {
                 values.iter().map(|value| if value.im > 0.0 { 2 } else { 1 }).sum::<usize>()
@@ -660,7 +660,7 @@ fn richardson_says_when_it_cannot_tell() {
 /// The meshes of a robot and its motion, each with its verdict.
 fn meshes(robot: &Robot, motion: &Motion, counts: &[usize]) -> Vec<(usize, Verdict)> {
     let (position, direction) = (motion.position(), motion.direction());
-    let study = Study::Elements { position, direction, counts: counts.to_vec(), limit: LIMIT };
+    let study = Study::Mesh { position, direction, counts: counts.to_vec(), limit: LIMIT };
     counts.iter().enumerate().map(|(i, &n)| (n, critical(&study, robot, i).1)).collect()
 }
 

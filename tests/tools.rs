@@ -505,11 +505,11 @@ fn unpinning_stops_the_pinned_designs_study() {
     // The same study is remembered; the other one belongs to the pinned design.
     open_groups(&mut app);
     type_value(&mut app, "Elements per cable n", "4");
-    interface::wait(&mut app, "the present design's study", |app| app.study(Topic::Polar).2);
-    interface::wait(&mut app, "the pinned design's study", |app| app.at_work().contains(&Topic::Polar));
+    interface::wait(&mut app, "the present design's study", |app| app.study(Topic::Directions).2);
+    interface::wait(&mut app, "the pinned design's study", |app| app.at_work().contains(&Topic::Directions));
     app.get_by_role_and_label(Role::Button, "Unpin").click();
     app.run_steps(3);
-    assert!(!app.state().at_work().contains(&Topic::Polar), "it goes on: {:?}", app.state().at_work());
+    assert!(!app.state().at_work().contains(&Topic::Directions), "it goes on: {:?}", app.state().at_work());
 }
 
 #[test]

@@ -6,7 +6,7 @@ use super::export::{self, Content};
 use super::files::{self, Clip};
 use super::notices::About;
 use super::pinned::Pinned;
-use super::state::{Document, Plot, Sheet};
+use super::state::{Document, Plot, SheetTab};
 use super::studies::Owner;
 use super::{Command, Tautline, canvas, fields, number, view_link};
 use crate::compute::protocol::Request;
@@ -129,9 +129,9 @@ impl Tautline {
         self.session.revealed = Some(parameter);
         self.state.sheet = match parameter {
             Parameter::Speed | Parameter::Direction | Parameter::DirectionComponent(_) | Parameter::Position(_) => {
-                Sheet::Move
+                SheetTab::Move
             }
-            _ => Sheet::Robot,
+            _ => SheetTab::Robot,
         };
         self.state.panels.left = true;
         self.state.panels.left_where_narrow = true;

@@ -51,7 +51,7 @@ impl Form {
 
 /// Where the parts of the screen are; a part that is not there has no place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Places {
+pub struct Arrangement {
     /// The form.
     pub form: Form,
     /// The bar at the top.
@@ -93,10 +93,10 @@ fn transport_height(form: Form) -> f32 {
 }
 
 /// Arranges a window of this size, in points.
-pub fn arrange(window: Rect, panels: Panels, embedded: bool, present: bool, coarse: bool) -> Places {
+pub fn arrange(window: Rect, panels: Panels, embedded: bool, present: bool, coarse: bool) -> Arrangement {
     let size = window.size();
     let form = Form::of(size, embedded, present);
-    let mut places = Places {
+    let mut arrangement = Arrangement {
         form,
         bar: None,
         controls: None,
@@ -114,56 +114,56 @@ pub fn arrange(window: Rect, panels: Panels, embedded: bool, present: bool, coar
     match form {
         Form::Present => {
             let width = (0.31 * size.x).clamp(240.0, 520.0);
-            places.column = Some(cut_left(&mut rest, width));
-            places.dock = Some(cut_bottom(&mut rest, (0.36 * size.y).floor()));
+            arrangement.column = Some(cut_left(&mut rest, width));
+            arrangement.dock = Some(cut_bottom(&mut rest, (0.36 * size.y).floor()));
         }
         Form::Frame => {
-            places.bar = Some(cut_top(&mut rest, 44.0));
-            places.transport = Some(cut_bottom(&mut rest, 44.0));
+            arrangement.bar = Some(cut_top(&mut rest, 44.0));
+            arrangement.transport = Some(cut_bottom(&mut rest, 44.0));
         }
         Form::Low => {
-            places.bar = Some(cut_top(&mut rest, 44.0));
+            arrangement.bar = Some(cut_top(&mut rest, 44.0));
             let canvas = cut_left(&mut rest, (0.57 * size.x).floor());
-            places.sheet = Some(rest);
+            arrangement.sheet = Some(rest);
             rest = canvas;
         }
         Form::Phone => {
-            places.bar = Some(cut_top(&mut rest, 48.0));
+            arrangement.bar = Some(cut_top(&mut rest, 48.0));
             let mut upper = cut_top(&mut rest, (0.455 * size.y).ceil());
-            places.strip = Some(cut_bottom(&mut upper, (0.11 * size.y).clamp(64.0, 120.0)));
-            places.line = Some(cut_top(&mut rest, 44.0));
-            places.sheet = Some(rest);
+            arrangement.strip = Some(cut_bottom(&mut upper, (0.11 * size.y).clamp(64.0, 120.0)));
+            arrangement.line = Some(cut_top(&mut rest, 44.0));
+            arrangement.sheet = Some(rest);
             rest = upper;
         }
         Form::Portrait => {
-            places.bar = Some(cut_top(&mut rest, 48.0));
+            arrangement.bar = Some(cut_top(&mut rest, 48.0));
             let mut lower = rest;
             rest = cut_top(&mut lower, (0.512 * size.y).floor());
-            places.transport = Some(cut_top(&mut lower, transport_height(form)));
-            places.controls = Some(cut_left(&mut lower, 324.0));
-            places.plots = Some(lower);
+            arrangement.transport = Some(cut_top(&mut lower, transport_height(form)));
+            arrangement.controls = Some(cut_left(&mut lower, 324.0));
+            arrangement.plots = Some(lower);
         }
         Form::Wide | Form::Middle => {
-            places.bar = Some(cut_top(&mut rest, if coarse { 48.0 } else { 40.0 }));
+            arrangement.bar = Some(cut_top(&mut rest, if coarse { 48.0 } else { 40.0 }));
             let [left, right] = widths(size, rest.height(), form, panels);
-            places.controls = (left > 0.0).then(|| cut_left(&mut rest, left));
-            places.plots = (right > 0.0).then(|| cut_right(&mut rest, right));
+            arrangement.controls = (left > 0.0).then(|| cut_left(&mut rest, left));
+            arrangement.plots = (right > 0.0).then(|| cut_right(&mut rest, right));
             if size.x >= 1600.0
-                && let Some(plots) = &mut places.plots
+                && let Some(plots) = &mut arrangement.plots
             {
-                places.second = Some(cut_bottom(plots, (0.5 * plots.height()).floor()));
+                arrangement.second = Some(cut_bottom(plots, (0.5 * plots.height()).floor()));
             }
-            places.transport = Some(cut_bottom(&mut rest, transport_height(form)));
+            arrangement.transport = Some(cut_bottom(&mut rest, transport_height(form)));
             if panels.dock {
                 let usual = if form == Form::Wide { 0.25 } else { 0.36 } * size.y;
                 let height = if panels.dock_height > 0.0 { panels.dock_height } else { usual.max(204.0) };
                 let most = (0.6 * rest.height()).max(LEAST_DOCK);
-                places.dock = Some(cut_bottom(&mut rest, height.clamp(LEAST_DOCK, most).floor()));
+                arrangement.dock = Some(cut_bottom(&mut rest, height.clamp(LEAST_DOCK, most).floor()));
             }
         }
     }
-    places.canvas = rest;
-    places
+    arrangement.canvas = rest;
+    arrangement
 }
 
 /// The widths of the panels on the left and on the right; 0 where one is folded.
@@ -225,7 +225,7 @@ pub enum Edge {
     Dock,
 }
 
-impl Places {
+impl Arrangement {
     /// The edges that can be dragged, with their names and the ground on which they can be grabbed.
     pub fn edges(&self) -> impl Iterator<Item = (Edge, &'static str, Rect)> {
         const REACH: f32 = 4.0;
@@ -270,23 +270,23 @@ impl Places {
 mod tests {
     use super::*;
 
-    fn places(width: f32, height: f32, panels: Panels) -> Places {
+    fn arrangement(width: f32, height: f32, panels: Panels) -> Arrangement {
         arrange(Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height)), panels, false, false, false)
     }
 
-    fn all(places: &Places) -> Vec<(&'static str, Rect)> {
+    fn all(arrangement: &Arrangement) -> Vec<(&'static str, Rect)> {
         let named = [
-            ("bar", places.bar),
-            ("controls", places.controls),
-            ("canvas", Some(places.canvas)),
-            ("strip", places.strip),
-            ("dock", places.dock),
-            ("transport", places.transport),
-            ("plots", places.plots),
-            ("second", places.second),
-            ("line", places.line),
-            ("sheet", places.sheet),
-            ("column", places.column),
+            ("bar", arrangement.bar),
+            ("controls", arrangement.controls),
+            ("canvas", Some(arrangement.canvas)),
+            ("strip", arrangement.strip),
+            ("dock", arrangement.dock),
+            ("transport", arrangement.transport),
+            ("plots", arrangement.plots),
+            ("second", arrangement.second),
+            ("line", arrangement.line),
+            ("sheet", arrangement.sheet),
+            ("column", arrangement.column),
         ];
         named.into_iter().filter_map(|(name, rect)| Some((name, rect?))).collect()
     }
@@ -309,8 +309,8 @@ mod tests {
         ] {
             for (embedded, present) in [(false, false), (true, false), (false, true)] {
                 let window = Rect::from_min_size(Pos2::ZERO, Vec2::new(width, height));
-                let places = arrange(window, Panels::default(), embedded, present, false);
-                let all = all(&places);
+                let arrangement = arrange(window, Panels::default(), embedded, present, false);
+                let all = all(&arrangement);
                 let area: f32 = all.iter().map(|(_, rect)| rect.area()).sum();
                 assert!((area / window.area() - 1.0).abs() < 1e-4, "{width} × {height}: {all:?}");
                 for (name, rect) in &all {
@@ -336,36 +336,36 @@ mod tests {
             (3840.0, 2160.0),
         ];
         for (width, height) in wide {
-            let places = places(width, height, Panels::default());
-            assert!(share(places.centre(), width, height) >= 0.5, "{width} × {height}: {places:?}");
+            let arrangement = arrangement(width, height, Panels::default());
+            assert!(share(arrangement.centre(), width, height) >= 0.5, "{width} × {height}: {arrangement:?}");
         }
-        let desktop = places(1280.0, 800.0, Panels::default());
+        let desktop = arrangement(1280.0, 800.0, Panels::default());
         assert!(share(desktop.canvas, 1280.0, 800.0) >= 0.36, "{desktop:?}");
         for (width, height) in [(320.0, 640.0), (360.0, 740.0), (600.0, 900.0)] {
-            let places = places(width, height, Panels::default());
-            assert!(share(places.centre(), width, height) >= 0.45, "{width} × {height}: {places:?}");
+            let arrangement = arrangement(width, height, Panels::default());
+            assert!(share(arrangement.centre(), width, height) >= 0.45, "{width} × {height}: {arrangement:?}");
         }
-        let low = places(740.0, 360.0, Panels::default());
+        let low = arrangement(740.0, 360.0, Panels::default());
         assert!(low.canvas.width() >= 0.56 * 740.0, "{low:?}");
     }
 
     #[test]
     fn folded_panels_leave_their_room_to_the_robot() {
         let folded = Panels { left: false, right: false, dock: false, ..Panels::default() };
-        let places = places(1280.0, 800.0, folded);
-        assert_eq!(places.canvas, Rect::from_min_max(Pos2::new(0.0, 40.0), Pos2::new(1280.0, 756.0)));
+        let arrangement = arrangement(1280.0, 800.0, folded);
+        assert_eq!(arrangement.canvas, Rect::from_min_max(Pos2::new(0.0, 40.0), Pos2::new(1280.0, 756.0)));
     }
 
     #[test]
     fn an_edge_goes_where_it_is_dragged_and_the_robot_keeps_some_room() {
         let window = Rect::from_min_size(Pos2::ZERO, Vec2::new(1280.0, 800.0));
         let mut panels = Panels::default();
-        places(1280.0, 800.0, panels).resize(&mut panels, Edge::Left, Pos2::new(300.0, 400.0), window);
-        assert_eq!(places(1280.0, 800.0, panels).controls.map(|rect| rect.width()), Some(300.0));
+        arrangement(1280.0, 800.0, panels).resize(&mut panels, Edge::Left, Pos2::new(300.0, 400.0), window);
+        assert_eq!(arrangement(1280.0, 800.0, panels).controls.map(|rect| rect.width()), Some(300.0));
         for (edge, to) in [(Edge::Right, Pos2::ZERO), (Edge::Left, Pos2::new(1280.0, 0.0)), (Edge::Dock, Pos2::ZERO)] {
-            places(1280.0, 800.0, panels).resize(&mut panels, edge, to, window);
+            arrangement(1280.0, 800.0, panels).resize(&mut panels, edge, to, window);
         }
-        let canvas = places(1280.0, 800.0, panels).canvas;
+        let canvas = arrangement(1280.0, 800.0, panels).canvas;
         assert!(canvas.width() >= LEAST_CANVAS - 1.0 && canvas.height() > 200.0, "{canvas:?}");
     }
 }

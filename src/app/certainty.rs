@@ -3,7 +3,7 @@
 use crate::app::answers::{Answers, CriticalState};
 use crate::app::digits;
 use crate::app::series::Meshes;
-use crate::app::studies::{Known, Studies, Wish};
+use crate::app::studies::{Studies, StudyRequest, StudyResults};
 use crate::compute::protocol::Topic;
 use crate::scenario::Scenario;
 use crate::stability::Critical;
@@ -41,14 +41,16 @@ impl Certainty {
             CriticalState::Current(answer) => answer.critical.as_ref(),
             _ => None,
         };
-        let meshes = studies.shown(Topic::Convergence).map(|shown| shown.known);
+        let meshes = studies.shown(Topic::Mesh).map(|shown| shown.known);
         critical.zip(meshes).map_or(Self::Unknown, |(critical, meshes)| Self::of(scenario, critical, meshes))
     }
 
     /// What `known` says of the critical speed of `scenario`, where it is a study of its meshes and complete.
-    pub fn of(scenario: &Scenario, critical: &Critical, known: &Known) -> Self {
-        let same = match &known.wish.study {
-            Study::Elements { counts, .. } => Wish::meshes(scenario, counts.clone()).as_ref() == Some(&known.wish),
+    pub fn of(scenario: &Scenario, critical: &Critical, known: &StudyResults) -> Self {
+        let same = match &known.request.study {
+            Study::Mesh { counts, .. } => {
+                StudyRequest::meshes(scenario, counts.clone()).as_ref() == Some(&known.request)
+            }
             _ => false,
         };
         let today = scenario.elements_per_cable;
@@ -139,16 +141,16 @@ mod tests {
         Critical { speed, eigenvalue: Complex::new(0.0, frequency_hz * TAU), kind, cable: 3 }
     }
 
-    fn known(kinds: [Instability; 3], speeds: [f64; 3]) -> (Scenario, Known) {
+    fn known(kinds: [Instability; 3], speeds: [f64; 3]) -> (Scenario, StudyResults) {
         let scenario = presets::PRESETS[0].scenario();
-        let wish = Wish::meshes(&scenario, vec![10, 20, 40]).expect("physical");
+        let request = StudyRequest::meshes(&scenario, vec![10, 20, 40]).expect("physical");
         let place = |(speed, kind)| Answer::Critical {
             direction: Vec2::x(),
             verdict: Verdict::Critical(found(speed, kind)),
             wave_limit: None,
         };
         let places = speeds.into_iter().zip(kinds).map(|pair| Some(place(pair))).collect();
-        (scenario, Known { wish, places, version: (1, 0) })
+        (scenario, StudyResults { request, places, version: (1, 0) })
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::app::words::Word;
 use crate::compute::protocol::{ModeChoice, Topic};
 use crate::scenario::{Parameter, Scenario};
 
-/// A wish of a panel.
+/// A request of a panel.
 #[derive(Clone, Debug)]
 pub enum Command {
     /// Put this scenario in the place of the present one, where it is physical.

@@ -8,7 +8,7 @@ use serde_json::Value;
 use crate::app::facts::Facts;
 use crate::app::series::{self, degrees};
 use crate::app::state::Plot;
-use crate::app::studies::Known;
+use crate::app::studies::StudyResults;
 use crate::compute::protocol::{Extent, Topic};
 use crate::scenario::report::{CriticalReport, StatusReport, parameter};
 use crate::study::{Answer, NoEigenvalues, Status, Study, Verdict, evenly};
@@ -97,10 +97,10 @@ pub fn plot(plot: Plot, facts: Facts<'_>) -> Option<Table> {
             Some(table)
         }
         Plot::Line => study(Topic::Line).and_then(places),
-        Plot::Directions => study(Topic::Polar).and_then(places),
+        Plot::Directions => study(Topic::Directions).and_then(places),
         Plot::Campbell => study(Topic::Campbell).and_then(places),
-        Plot::Mesh => study(Topic::Convergence).and_then(places),
-        Plot::Knobs => knobs(facts),
+        Plot::Mesh => study(Topic::Mesh).and_then(places),
+        Plot::Sensitivities => sensitivities(facts),
     }
 }
 
@@ -113,7 +113,7 @@ pub fn suffix(plot: Plot) -> &'static str {
         Plot::Directions => "-directions.csv",
         Plot::Campbell => "-campbell.csv",
         Plot::Mesh => "-mesh.csv",
-        Plot::Knobs => "-knobs.csv",
+        Plot::Sensitivities => "-sensitivities.csv",
     }
 }
 
@@ -142,7 +142,7 @@ fn modes(facts: Facts<'_>) -> Option<Table> {
 }
 
 /// Relative derivatives of the critical speed and of its frequency.
-fn knobs(facts: Facts<'_>) -> Option<Table> {
+fn sensitivities(facts: Facts<'_>) -> Option<Table> {
     let (found, _) = facts.answers.sensitivities()?;
     let mut table = Table::new(&["parameter", "critical_speed_percent_per_percent", "frequency_percent_per_percent"]);
     let rows = found.as_ref().ok()?.iter();
@@ -151,10 +151,10 @@ fn knobs(facts: Facts<'_>) -> Option<Table> {
 }
 
 /// What is known of a study, place by place.
-fn places(known: &Known) -> Option<Table> {
+fn places(known: &StudyResults) -> Option<Table> {
     let answered = || known.places.iter().enumerate().filter_map(|(i, answer)| Some((i, answer.as_ref()?)));
     let at: Box<dyn Fn(usize) -> Vec<String> + '_>;
-    let header: &[&str] = match &known.wish.study {
+    let header: &[&str] = match &known.request.study {
         Study::Line { line, .. } => {
             at = Box::new(move |i| line.position(i).iter().map(ToString::to_string).collect());
             &["x", "y"]
@@ -163,17 +163,17 @@ fn places(known: &Known) -> Option<Table> {
             at = Box::new(move |i| grid.position(i).iter().map(ToString::to_string).collect());
             &["x", "y"]
         }
-        Study::Polar { .. } => {
+        Study::Directions { .. } => {
             let directions: Vec<f64> = series::directions(known).iter().map(|(d, _)| degrees(*d)).collect();
             at = Box::new(move |i| directions.get(i).map(ToString::to_string).into_iter().collect());
             &["direction_degrees"]
         }
-        Study::Speeds { to, count, .. } => {
+        Study::Campbell { to, count, .. } => {
             let (to, count) = (*to, *count);
             at = Box::new(move |i| vec![evenly(0.0, to, i, count).to_string()]);
             &["speed"]
         }
-        Study::Elements { counts, .. } => {
+        Study::Mesh { counts, .. } => {
             at = Box::new(move |i| counts.get(i).map(ToString::to_string).into_iter().collect());
             &["elements_per_cable"]
         }
@@ -217,7 +217,7 @@ pub fn analysis(facts: Facts<'_>) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::studies::Wish;
+    use crate::app::studies::StudyRequest;
     use crate::robot::Vec2;
     use crate::scenario::presets;
     use crate::stability::{Critical, Instability};
@@ -225,8 +225,8 @@ mod tests {
     use nalgebra::Complex;
 
     fn table(study: Study, answers: Vec<Answer>) -> String {
-        let wish = Wish::new(&presets::PRESETS[0].scenario(), study);
-        let known = Known { places: answers.into_iter().map(Some).collect(), wish, version: (1, 1) };
+        let request = StudyRequest::new(&presets::PRESETS[0].scenario(), study);
+        let known = StudyResults { places: answers.into_iter().map(Some).collect(), request, version: (1, 1) };
         places(&known).expect("a table").csv()
     }
 
@@ -243,7 +243,7 @@ mod tests {
         let answer = |verdict, wave_limit| Answer::Critical { direction, verdict, wave_limit };
         let counts = vec![4, 6, 8, 10, 12];
         let csv = table(
-            Study::Elements { position, direction, counts, limit: 40.0 },
+            Study::Mesh { position, direction, counts, limit: 40.0 },
             vec![
                 answer(Verdict::Critical(critical), Some(11.5)),
                 answer(Verdict::NoneUpTo(40.0), Some(50.5)),
@@ -274,7 +274,7 @@ mod tests {
         assert_eq!(ends, ["-0.25,found", ",infeasible", ",failed"]);
         let spectra =
             vec![Answer::Spectrum(Ok(vec![Complex::new(-1.0, TAU)])), Answer::Spectrum(Err(NoEigenvalues::Failed))];
-        let csv = table(Study::Speeds { position, direction, to: 2.0, count: 2 }, spectra);
+        let csv = table(Study::Campbell { position, direction, to: 2.0, count: 2 }, spectra);
         assert_eq!(lines(&csv), ["speed,growth_rate,frequency_hz,status", "0,-1,1,found", "2,,,failed"]);
     }
 }

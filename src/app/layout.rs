@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align, CursorIcon, Frame, Layout, Panel, Pos2, Rect, Role, Sense, Ui, UiBuilder, Vec2, WidgetInfo};
 
-use super::arrangement::{self, Form, Places};
+use super::arrangement::{self, Arrangement, Form};
 use super::bar::{self, Possible};
 use super::command::Command;
 use super::facts::Facts;
@@ -10,7 +10,7 @@ use super::icons::{Icon, IconButton};
 use super::panels::answer;
 use super::panels::controls::{self, Groups};
 use super::panels::plots::{self, Slot};
-use super::state::{Plot, Sheet};
+use super::state::{Plot, SheetTab};
 use super::{Tautline, canvas, gestures, regions, theme, transport, words};
 use crate::app::meaning::Explain as _;
 
@@ -50,45 +50,46 @@ impl Tautline {
     pub(super) fn screen(&mut self, ui: &mut Ui) {
         let window = ui.available_rect_before_wrap();
         let Self { state, session, .. } = self;
-        let places = arrangement::arrange(window, state.panels, session.embedded, session.present, self.screen.coarse);
+        let arrangement =
+            arrangement::arrange(window, state.panels, session.embedded, session.present, self.screen.coarse);
         self.screen.plots.clear();
-        self.edges(ui, &places, window);
-        if let Some(rect) = places.bar {
-            self.bar(ui, rect, places.form);
+        self.edges(ui, &arrangement, window);
+        if let Some(rect) = arrangement.bar {
+            self.bar(ui, rect, arrangement.form);
         }
-        if let Some(rect) = places.column {
+        if let Some(rect) = arrangement.column {
             self.column(ui, rect);
         }
-        if let Some(rect) = places.controls {
-            self.controls(ui, rect, places.form);
+        if let Some(rect) = arrangement.controls {
+            self.controls(ui, rect, arrangement.form);
         }
-        if let Some(rect) = places.line {
+        if let Some(rect) = arrangement.line {
             self.line(ui, rect);
         }
-        if let Some(rect) = places.sheet {
-            self.sheet(ui, rect, places.form);
+        if let Some(rect) = arrangement.sheet {
+            self.sheet(ui, rect, arrangement.form);
         }
         match self.session.large {
-            Some(plot) if places.form != Form::Present => {
-                self.screen.regions.plot = self.plot(ui, places.centre(), Slot::Large, plot);
+            Some(plot) if arrangement.form != Form::Present => {
+                self.screen.regions.plot = self.plot(ui, arrangement.centre(), Slot::Large, plot);
             }
-            _ => self.centre(ui, &places),
+            _ => self.centre(ui, &arrangement),
         }
-        if let Some(rect) = places.plots {
-            let slot = if places.form == Form::Portrait { Slot::Under } else { Slot::Right };
+        if let Some(rect) = arrangement.plots {
+            let slot = if arrangement.form == Form::Portrait { Slot::Under } else { Slot::Right };
             let plot = if slot == Slot::Under { self.state.dock } else { self.state.plot };
             self.screen.regions.plot = self.plot(ui, rect, slot, plot);
-            regions::mark(ui, places.second.map_or(rect, |second| rect.union(second)), "Plots");
+            regions::mark(ui, arrangement.second.map_or(rect, |second| rect.union(second)), "Plots");
         }
-        if let Some(rect) = places.second {
+        if let Some(rect) = arrangement.second {
             self.plot(ui, rect, Slot::Second, self.state.second);
         }
     }
 
     /// The robot with what is under it.
-    fn centre(&mut self, ui: &mut Ui, places: &Places) {
-        self.canvas(ui, places);
-        if let Some(rect) = places.strip {
+    fn centre(&mut self, ui: &mut Ui, arrangement: &Arrangement) {
+        self.canvas(ui, arrangement);
+        if let Some(rect) = arrangement.strip {
             self.show(Plot::Line);
             let facts = self.present.facts(self.state.settings, self.session.mode);
             ui.painter().rect_filled(rect, 0.0, theme::tokens(ui.visuals()).canvas);
@@ -97,37 +98,37 @@ impl Tautline {
             }
             regions::mark(ui, rect, "Dock");
         }
-        if let Some(rect) = places.dock {
-            let slot = match places.form {
+        if let Some(rect) = arrangement.dock {
+            let slot = match arrangement.form {
                 Form::Middle => Slot::Under,
                 Form::Present => Slot::Present,
                 _ => Slot::Dock,
             };
             let plot = if slot == Slot::Present { Plot::Line } else { self.state.dock };
             let place = self.plot(ui, rect, slot, plot);
-            if places.plots.is_none() {
+            if arrangement.plots.is_none() {
                 self.screen.regions.plot = place;
             }
             regions::mark(ui, rect, "Dock");
         }
-        if let Some(rect) = places.transport {
+        if let Some(rect) = arrangement.transport {
             let facts = self.present.facts(self.state.settings, self.session.mode);
             let Self { state, session, commands, .. } = self;
-            if places.form == Form::Frame {
+            if arrangement.form == Form::Frame {
                 frame_row(&mut state.playback, session.mode, ui, rect, facts, commands);
             } else {
-                transport::ui(&mut state.playback, session, ui, (rect, places.form), facts, commands);
+                transport::ui(&mut state.playback, session, ui, (rect, arrangement.form), facts, commands);
             }
             regions::mark(ui, rect, "Transport");
         }
     }
 
-    fn canvas(&mut self, ui: &mut Ui, places: &Places) {
-        let rect = places.canvas;
+    fn canvas(&mut self, ui: &mut Ui, arrangement: &Arrangement) {
+        let rect = arrangement.canvas;
         let facts = self.present.facts(self.state.settings, self.session.mode);
-        let wide = matches!(places.form, Form::Wide | Form::Middle | Form::Portrait);
+        let wide = matches!(arrangement.form, Form::Wide | Form::Middle | Form::Portrait);
         let card = if wide { answer::size(facts) + Vec2::new(0.0, 24.0) } else { Vec2::ZERO };
-        let compact = !wide && places.form != Form::Present;
+        let compact = !wide && arrangement.form != Form::Present;
         // The legend is beside the card, or where the card would be.
         let corner = if wide {
             Rect::from_min_max(
@@ -138,7 +139,7 @@ impl Tautline {
             Rect::from_min_size(rect.min + Vec2::new(MARGIN, 6.0), Vec2::new(rect.width() - 120.0, 46.0))
         };
         let beside = wide && is_beside(rect.size(), card, canvas::frame(&self.present.document.scenario).size().into());
-        let top = match places.form {
+        let top = match arrangement.form {
             Form::Wide | Form::Middle | Form::Portrait if beside => 0.0,
             Form::Wide | Form::Middle | Form::Portrait => card.y,
             Form::Phone | Form::Low => 46.0,
@@ -151,14 +152,14 @@ impl Tautline {
         } else {
             corner
         };
-        let under = places.dock.or(places.strip).is_some();
+        let under = arrangement.dock.or(arrangement.strip).is_some();
         let space = canvas::Space {
             insets: canvas::Insets { top, left, ..canvas::Insets::default() },
             corner,
             compact,
-            legend: !matches!(places.form, Form::Frame | Form::Present) && (compact || corner.height() >= LEGEND),
+            legend: !matches!(arrangement.form, Form::Frame | Form::Present) && (compact || corner.height() >= LEGEND),
             pose_line: under
-                && (places.strip.is_some() || self.state.dock == Plot::Line || places.form == Form::Present),
+                && (arrangement.strip.is_some() || self.state.dock == Plot::Line || arrangement.form == Form::Present),
         };
         let Self { screen, state, session, commands, .. } = self;
         let inside = UiBuilder::new().max_rect(rect).id_salt("canvas");
@@ -174,7 +175,7 @@ impl Tautline {
             screen.regions.answer = answer::card(ui, corner, facts, commands);
             regions::mark(ui, screen.regions.answer, "Answer");
         }
-        if matches!(places.form, Form::Phone | Form::Low) {
+        if matches!(arrangement.form, Form::Phone | Form::Low) {
             let button = Rect::from_min_size(rect.right_top() + Vec2::new(-100.0, 6.0), Vec2::new(92.0, 44.0));
             let inside = UiBuilder::new().max_rect(button).layout(Layout::right_to_left(Align::Center));
             ui.scope_builder(inside, |ui| {
@@ -240,7 +241,7 @@ impl Tautline {
         ui.painter().vline(rect.max.x - 0.5, rect.y_range(), (1.0, tokens.line));
         self.screen.regions.controls = rect;
         if form == Form::Portrait {
-            let all = [Sheet::Move, Sheet::Robot, Sheet::Explain];
+            let all = [SheetTab::Move, SheetTab::Robot, SheetTab::Explain];
             self.tabs(ui, rect, form, &all);
         } else {
             self.within(ui, rect, "All", |app, ui| app.groups(ui, Groups::All, app.screen.coarse));
@@ -282,10 +283,10 @@ impl Tautline {
         let state = &mut self.state;
         let commands = &mut self.commands;
         ui.scope_builder(inside, |ui| {
-            let icon = if state.sheet == Sheet::Explain { Icon::ChevronDown } else { Icon::ChevronUp };
+            let icon = if state.sheet == SheetTab::Explain { Icon::ChevronDown } else { Icon::ChevronUp };
             let button = IconButton::new(icon, "What this means").height(44.0).show(ui);
             if button.clicked() {
-                state.sheet = if state.sheet == Sheet::Explain { Sheet::Move } else { Sheet::Explain };
+                state.sheet = if state.sheet == SheetTab::Explain { SheetTab::Move } else { SheetTab::Explain };
             }
             if facts.answers.pose_failed()
                 && facts.answers.last_feasible().is_some()
@@ -309,19 +310,19 @@ impl Tautline {
         ui.painter().rect_filled(rect, 0.0, tokens.panel);
         ui.painter().vline(rect.min.x + 0.5, rect.y_range(), (1.0, tokens.line));
         self.screen.regions.controls = rect;
-        self.tabs(ui, rect, form, &Sheet::ALL.map(|(sheet, _)| sheet));
+        self.tabs(ui, rect, form, &SheetTab::ALL.map(|(sheet, _)| sheet));
         regions::mark(ui, rect, "Sheet");
     }
 
-    fn tabs(&mut self, ui: &mut Ui, rect: Rect, form: Form, all: &[Sheet]) {
+    fn tabs(&mut self, ui: &mut Ui, rect: Rect, form: Form, all: &[SheetTab]) {
         let tokens = theme::tokens(ui.visuals());
         let height = if form == Form::Low { 44.0 } else { 48.0 };
         let (head, body) = rect.split_top_bottom_at_y(rect.min.y + height);
         let width = head.width() / all.len() as f32;
-        let chosen = if all.contains(&self.state.sheet) { self.state.sheet } else { Sheet::Move };
+        let chosen = if all.contains(&self.state.sheet) { self.state.sheet } else { SheetTab::Move };
         ui.painter().hline(head.x_range(), head.max.y - 0.5, (1.0, tokens.line));
         for (i, sheet) in all.iter().enumerate() {
-            let name = Sheet::ALL.iter().find(|(other, _)| other == sheet).map_or("", |(_, name)| name);
+            let name = SheetTab::ALL.iter().find(|(other, _)| other == sheet).map_or("", |(_, name)| name);
             let place = Rect::from_min_size(head.min + Vec2::new(i as f32 * width, 0.0), Vec2::new(width, height));
             let response = ui.interact(place, ui.scope_id().with(("sheet", name)), Sense::click());
             let on = chosen == *sheet;
@@ -341,15 +342,15 @@ impl Tautline {
             }
         }
         match chosen {
-            Sheet::Plots => self.screen.regions.plot = self.plot(ui, body, Slot::Sheet, self.state.plot),
-            Sheet::Move => self.within(ui, body, "Move", |app, ui| {
+            SheetTab::Plots => self.screen.regions.plot = self.plot(ui, body, Slot::Sheet, self.state.plot),
+            SheetTab::Move => self.within(ui, body, "Move", |app, ui| {
                 ui.add_space(6.0);
                 app.groups(ui, Groups::Motion, true);
                 ui.add_space(6.0);
                 app.motion_buttons(ui);
             }),
-            Sheet::Robot => self.within(ui, body, "Robot", |app, ui| app.groups(ui, Groups::Robot, true)),
-            Sheet::Explain => self.within(ui, body, "Explain", |app, ui| {
+            SheetTab::Robot => self.within(ui, body, "Robot", |app, ui| app.groups(ui, Groups::Robot, true)),
+            SheetTab::Explain => self.within(ui, body, "Explain", |app, ui| {
                 ui.add_space(8.0);
                 let facts = app.present.facts(app.state.settings, app.session.mode);
                 words::explain(&mut app.session, ui, facts, &mut app.commands);
@@ -412,8 +413,8 @@ impl Tautline {
     }
 
     /// The edges of panels, to be dragged.
-    fn edges(&mut self, ui: &mut Ui, places: &Places, window: Rect) {
-        for (edge, name, rect) in places.edges() {
+    fn edges(&mut self, ui: &mut Ui, arrangement: &Arrangement, window: Rect) {
+        for (edge, name, rect) in arrangement.edges() {
             let upright = rect.height() > rect.width();
             let cursor = if upright { CursorIcon::ResizeHorizontal } else { CursorIcon::ResizeVertical };
             let layer = eframe::egui::LayerId::new(eframe::egui::Order::Middle, ui.scope_id().with(name));
@@ -428,7 +429,7 @@ impl Tautline {
             if response.dragged()
                 && let Some(to) = response.interact_pointer_pos()
             {
-                places.resize(&mut self.state.panels, edge, to, window);
+                arrangement.resize(&mut self.state.panels, edge, to, window);
             }
         }
     }

@@ -231,7 +231,7 @@ impl Tautline {
     /// How far a study has come: places answered, all places, and whether it is finished.
     pub fn study(&self, topic: Topic) -> (usize, usize, bool) {
         let progress = self.present.studies.progress(topic);
-        (progress.done, progress.total, progress.stage == studies::Stage::Finished)
+        (progress.done, progress.total, progress.stage == studies::StudyStage::Finished)
     }
 
     /// The pinned design, and whether all is known of its pose.
@@ -276,8 +276,8 @@ impl Tautline {
         let plots: Vec<state::Plot> = self.screen.plots.iter().copied().filter(|plot| !of_pose(plot)).collect();
         let plots = plots.as_slice();
         let at_rest = self.present.answers.all_current() && !self.context.input(|input| input.pointer.any_down());
-        let wishes = studies::wanted(&self.present.document.scenario, &self.state, plots, critical, at_rest);
-        let orders = self.present.studies.want(wishes);
+        let requests = studies::wanted(&self.present.document.scenario, &self.state, plots, critical, at_rest);
+        let orders = self.present.studies.want(requests);
         let idle = !self.present.studies.is_working();
         // The pool has one study of each topic: the pinned design's go first, to make room for the present one's.
         let for_pinned = self.present.pinned.as_mut().map(|pinned| pinned.want(idle, &self.state, plots));

@@ -14,7 +14,7 @@ use crate::app::command::Command;
 use crate::app::facts::Facts;
 use crate::app::mirror;
 use crate::app::regions;
-use crate::app::studies::{Known, Stage, Studies};
+use crate::app::studies::{Studies, StudyResults, StudyStage};
 use crate::app::tree;
 use crate::compute::protocol::{Revision, Topic};
 use crate::scenario::report::{CriticalReport, StatusReport};
@@ -41,7 +41,7 @@ const FRAMES: usize = 120;
 
 /// The page's side of the application.
 pub struct Page {
-    shared: Rc<RefCell<Shared>>,
+    shared: Rc<RefCell<ScriptState>>,
     context: egui::Context,
     /// When it was looked last whether there is something to tell, in seconds.
     looked: f64,
@@ -56,7 +56,7 @@ pub struct Page {
 }
 
 #[derive(Default)]
-struct Shared {
+struct ScriptState {
     scenario: String,
     loaded: Option<Scenario>,
     link: Option<String>,
@@ -130,7 +130,7 @@ impl eframe::Storage for Own {
 impl Page {
     /// Sets `window.tautline`.
     pub fn new(context: &egui::Context) -> Self {
-        let shared = Rc::new(RefCell::new(Shared::default()));
+        let shared = Rc::new(RefCell::new(ScriptState::default()));
         // A page without a window has nobody to tell.
         if let Some(window) = web_sys::window() {
             let _ = Reflect::set(&window, &"tautline".into(), &interface(&shared, context));
@@ -255,13 +255,13 @@ impl Page {
     }
 }
 
-impl Shared {
+impl ScriptState {
     fn publish_studies(&mut self, studies: &Studies) {
         self.studies = Topic::ALL
             .into_iter()
             .map(|topic| {
                 let progress = studies.progress(topic);
-                let finished = progress.stage == Stage::Finished;
+                let finished = progress.stage == StudyStage::Finished;
                 let current = studies.shown(topic).is_some_and(|shown| shown.current);
                 let state = json!({
                     "done": progress.done, "total": progress.total, "finished": finished,
@@ -271,7 +271,7 @@ impl Shared {
             })
             .collect();
         // Not while answers come in: they would be written in every frame.
-        let at_rest = studies.progress(Topic::Map).stage != Stage::Working;
+        let at_rest = studies.progress(Topic::Map).stage != StudyStage::Working;
         if let Some(shown) = studies.shown(Topic::Map).filter(|_| self.asked && at_rest) {
             let known = shown.known;
             let newest = self
@@ -294,8 +294,8 @@ fn write(element: &str, text: &str) {
 
 /// The answered points of a map, each [x, y, feasible, critical speed, frequency, kind, cable, wave limit, status] with
 /// null where there is none, or [x, y, growth rate, status].
-fn rows(known: &Known) -> Vec<Value> {
-    let Study::Map { grid, .. } = &known.wish.study else { return Vec::new() };
+fn rows(known: &StudyResults) -> Vec<Value> {
+    let Study::Map { grid, .. } = &known.request.study else { return Vec::new() };
     let row = |(index, answer): (usize, &Option<Answer>)| {
         let at = grid.position(index);
         match answer.as_ref()? {
@@ -317,7 +317,7 @@ fn rows(known: &Known) -> Vec<Value> {
 }
 
 /// The object with `scenario()`, `load(json)`, `analysis()`, `layout()`, `studies()` and `timings()`.
-fn interface(shared: &Rc<RefCell<Shared>>, context: &egui::Context) -> Object {
+fn interface(shared: &Rc<RefCell<ScriptState>>, context: &egui::Context) -> Object {
     let object = Object::new();
     let set = |name: &str, function: JsValue| {
         // Setting a property of a fresh object does not fail.

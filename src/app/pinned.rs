@@ -3,7 +3,7 @@
 use crate::app::answers::Answers;
 use crate::app::certainty::Certainty;
 use crate::app::state::{Plot, UiState};
-use crate::app::studies::{self, Known, Order, Studies};
+use crate::app::studies::{self, Order, Studies, StudyResults};
 use crate::compute::Compute;
 use crate::compute::protocol::{
     AnalysedPose, Job, ModeChoice, Reply, Request, SearchEnd, StudyNews, Topic, Update, Which,
@@ -131,7 +131,7 @@ impl Pinned {
     }
 
     /// What is known of a study of it, once there is a picture.
-    pub fn study(&self, topic: Topic) -> Option<&Known> {
+    pub fn study(&self, topic: Topic) -> Option<&StudyResults> {
         self.studies.shown(topic).filter(|shown| shown.current).map(|shown| shown.known)
     }
 
@@ -140,10 +140,10 @@ impl Pinned {
         let critical = self.critical().map(|critical| critical.speed);
         let idle = idle && self.is_complete();
         let plots = if idle { plots } else { &[] };
-        let mut wishes = studies::wanted(&self.scenario, state, plots, critical, idle);
+        let mut requests = studies::wanted(&self.scenario, state, plots, critical, idle);
         // The map and the border of the feasible region show one design.
-        wishes.retain(|wish| !matches!(wish.topic(), Topic::Map | Topic::Border));
-        self.studies.want(wishes)
+        requests.retain(|request| !matches!(request.topic(), Topic::Map | Topic::Border));
+        self.studies.want(requests)
     }
 
     /// Takes in what the pool has found.

@@ -111,7 +111,7 @@ pub enum StressUnit {
 /// Whether things may move by themselves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum MotionChoice {
-    /// As the system wishes, where it tells.
+    /// As the system requests, where it tells.
     #[default]
     System,
     /// They may.

@@ -45,7 +45,7 @@ pub enum Plot {
     /// Critical speed against the mesh.
     Mesh,
     /// Sensitivities of the critical speed.
-    Knobs,
+    Sensitivities,
 }
 
 /// What a plot is about: the tabs are grouped by this.
@@ -64,7 +64,7 @@ impl PlotGroup {
     pub const ALL: [(Self, &'static str, &'static [Plot]); 3] = [
         (Self::Pose, "This pose", &[Plot::Eigenvalues, Plot::Modes, Plot::Growth]),
         (Self::Workspace, "Workspace", &[Plot::Line, Plot::Directions]),
-        (Self::Model, "Model", &[Plot::Campbell, Plot::Knobs, Plot::Mesh]),
+        (Self::Model, "Model", &[Plot::Campbell, Plot::Sensitivities, Plot::Mesh]),
     ];
 }
 
@@ -74,7 +74,7 @@ impl Plot {
         match self {
             Self::Eigenvalues | Self::Modes | Self::Growth => PlotGroup::Pose,
             Self::Line | Self::Directions => PlotGroup::Workspace,
-            Self::Campbell | Self::Knobs | Self::Mesh => PlotGroup::Model,
+            Self::Campbell | Self::Sensitivities | Self::Mesh => PlotGroup::Model,
         }
     }
 
@@ -87,7 +87,7 @@ impl Plot {
             Self::Line => "Along the line",
             Self::Directions => "Directions",
             Self::Campbell => "Speed diagram",
-            Self::Knobs => "What to change",
+            Self::Sensitivities => "What to change",
             Self::Mesh => "Mesh error",
         }
     }
@@ -101,7 +101,7 @@ impl Plot {
             Self::Line => "line",
             Self::Directions => "directions",
             Self::Campbell => "speed",
-            Self::Knobs => "change",
+            Self::Sensitivities => "change",
             Self::Mesh => "mesh",
         }
     }
@@ -143,7 +143,7 @@ pub struct MapView {
 
 /// What a phone shows below the answer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Sheet {
+pub enum SheetTab {
     /// The motion.
     #[default]
     Move,
@@ -155,7 +155,7 @@ pub enum Sheet {
     Explain,
 }
 
-impl Sheet {
+impl SheetTab {
     /// All with their names.
     pub const ALL: [(Self, &'static str); 4] =
         [(Self::Move, "Move"), (Self::Robot, "Robot"), (Self::Plots, "Plots"), (Self::Explain, "Explain")];
@@ -222,7 +222,7 @@ pub struct UiState {
     /// The plot under the robot.
     pub dock: Plot,
     /// What a phone shows.
-    pub sheet: Sheet,
+    pub sheet: SheetTab,
     /// The mode shape's movement.
     pub playback: Playback,
     /// Which panels are open.
@@ -312,7 +312,7 @@ impl Default for UiState {
             plot: Plot::Eigenvalues,
             second: Plot::Directions,
             dock: Plot::Line,
-            sheet: Sheet::default(),
+            sheet: SheetTab::default(),
             playback: Playback::default(),
             panels: Panels::default(),
             sections: Sections::default(),
@@ -406,7 +406,7 @@ mod tests {
             Plot::Line => 3,
             Plot::Directions => 4,
             Plot::Campbell => 5,
-            Plot::Knobs => 6,
+            Plot::Sensitivities => 6,
             Plot::Mesh => 7,
         };
         assert_eq!(Plot::all().map(place).collect::<Vec<_>>(), (0..8).collect::<Vec<_>>());

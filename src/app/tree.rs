@@ -135,22 +135,22 @@ fn with_update<R>(context: &Context, read: impl FnOnce(&TreeUpdate) -> R) -> Opt
 
 /// Where a widget is, and what is seen of it where something cuts it off.
 #[derive(Clone, Copy, Debug)]
-struct Place {
+struct WidgetPlace {
     whole: Rect,
     seen: Rect,
 }
 
 /// Where all widgets of the last pass are: the tree knows nothing of what is cut off.
-fn places(context: &Context) -> HashMap<NodeId, (Id, Place)> {
+fn places(context: &Context) -> HashMap<NodeId, (Id, WidgetPlace)> {
     context.viewport(|viewport| {
         let widgets = viewport.prev_pass.widgets.layers().flat_map(|(_, widgets)| widgets);
-        let place = |rect: Rect, seen: Rect| Place { whole: rect, seen: seen.intersect(rect) };
+        let place = |rect: Rect, seen: Rect| WidgetPlace { whole: rect, seen: seen.intersect(rect) };
         widgets.map(|it| (it.id.accesskit_id(), (it.id, place(it.rect, it.interact_rect)))).collect()
     })
 }
 
 /// The named things of a tree that are seen on the screen.
-fn list(update: &TreeUpdate, screen: Rect, place: impl Fn(NodeId) -> Option<Place>) -> Vec<Item> {
+fn list(update: &TreeUpdate, screen: Rect, place: impl Fn(NodeId) -> Option<WidgetPlace>) -> Vec<Item> {
     let nodes: HashMap<NodeId, &Node> = update.nodes.iter().map(|(id, node)| (*id, node)).collect();
     let mut items = Vec::new();
     let mut waiting: Vec<NodeId> = update.tree.iter().map(|tree| tree.root).collect();
@@ -162,8 +162,8 @@ fn list(update: &TreeUpdate, screen: Rect, place: impl Fn(NodeId) -> Option<Plac
         let Some(role) = aria(node.role()) else { continue };
         let Some(label) = name(node, &nodes) else { continue };
         let in_tree = || node.bounds().map(|bounds| corners([bounds.x0, bounds.y0], [bounds.x1, bounds.y1]));
-        let place = place(id).or_else(|| in_tree().map(|rect| Place { whole: rect, seen: rect }));
-        let Some(Place { whole, seen }) = place.filter(|place| place.whole.is_finite()) else { continue };
+        let place = place(id).or_else(|| in_tree().map(|rect| WidgetPlace { whole: rect, seen: rect }));
+        let Some(WidgetPlace { whole, seen }) = place.filter(|place| place.whole.is_finite()) else { continue };
         let rect = seen.intersect(screen);
         if !rect.is_positive() {
             continue;
@@ -362,7 +362,7 @@ mod tests {
         let nodes = rows.map(|row| node(Role::Button, "Row", [0.0, row.top().into(), 50.0, row.bottom().into()]));
         let place = |id: NodeId| {
             let row = *rows.get(usize::try_from(id.0).ok()?.checked_sub(1)?)?;
-            Some(Place { whole: row, seen: row.intersect(rect(100.0, 200.0)) })
+            Some(WidgetPlace { whole: row, seen: row.intersect(rect(100.0, 200.0)) })
         };
         let items = list(&tree(nodes.to_vec()), SCREEN, place);
         let seen: Vec<Rect> = items.iter().map(|item| item.rect).collect();

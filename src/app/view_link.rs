@@ -74,8 +74,8 @@ pub fn part(text: &str) -> Option<&str> {
 pub fn apply(text: &str, state: &mut UiState, session: &mut Session) {
     let text = percent_encoding::percent_decode_str(text).decode_utf8_lossy();
     let text = text.trim_end_matches(|c: char| !c.is_ascii_alphanumeric());
-    for wish in text.split('&') {
-        if let Some((name, value)) = wish.strip_prefix("amp;").unwrap_or(wish).split_once('=') {
+    for request in text.split('&') {
+        if let Some((name, value)) = request.strip_prefix("amp;").unwrap_or(request).split_once('=') {
             set(name, value, state, session);
         }
     }

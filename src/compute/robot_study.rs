@@ -65,7 +65,7 @@ impl RobotStudy {
                 let cubes = spectra.iter().map(|(_, eigenvalues)| (eigenvalues.len() as f64).powi(3));
                 return (cubes.sum::<f64>() / USUAL_CUBES).max(1.0);
             }
-            Study::Elements { counts, .. } => counts.get(place).copied().unwrap_or_default(),
+            Study::Mesh { counts, .. } => counts.get(place).copied().unwrap_or_default(),
             _ => self.robot.elements,
         };
         let elements_of_all = (elements * self.robot.cables.len()) as f64 / USUAL_ELEMENTS;
@@ -121,12 +121,12 @@ fn check(study: &Study) -> Result<(), String> {
             motion(grid.low, direction, speed)?;
             motion(grid.high, direction, speed)?;
         }
-        Study::Polar { position, limit, .. } => {
+        Study::Directions { position, limit, .. } => {
             motion(*position, Vec2::x(), 0.0)?;
             search_limit(*limit)?;
         }
-        Study::Speeds { position, direction, to: highest, .. }
-        | Study::Elements { position, direction, limit: highest, .. } => {
+        Study::Campbell { position, direction, to: highest, .. }
+        | Study::Mesh { position, direction, limit: highest, .. } => {
             motion(*position, *direction, 0.0)?;
             search_limit(*highest)?;
         }

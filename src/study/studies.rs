@@ -48,7 +48,7 @@ pub enum Study {
         mapped: Mapped,
     },
     /// The critical speed in every direction, see [`compass`].
-    Polar {
+    Directions {
         /// The pose in m.
         position: Vec2,
         /// How many directions.
@@ -58,7 +58,7 @@ pub enum Study {
     },
     /// All eigenvalues from rest to a speed, see [`evenly`]: the Campbell diagram, once joined by
     /// [`campbell::track`](crate::study::campbell::track).
-    Speeds {
+    Campbell {
         /// The pose in m.
         position: Vec2,
         /// The direction, of any length but zero.
@@ -69,7 +69,7 @@ pub enum Study {
         count: usize,
     },
     /// The critical speed on several meshes, for [`convergence::richardson`](crate::study::convergence::richardson).
-    Elements {
+    Mesh {
         /// The pose in m.
         position: Vec2,
         /// The direction, of any length but zero.
@@ -101,11 +101,11 @@ pub enum Topic {
     /// A map over the workspace.
     Map,
     /// Critical speeds in every direction.
-    Polar,
+    Directions,
     /// All eigenvalues against speed.
     Campbell,
     /// Critical speeds on several meshes.
-    Convergence,
+    Mesh,
     /// Eigenvalues joined to modes.
     Modes,
     /// The border of the feasible region.
@@ -115,16 +115,16 @@ pub enum Topic {
 impl Topic {
     /// All of them.
     pub const ALL: [Self; 7] =
-        [Self::Line, Self::Map, Self::Polar, Self::Campbell, Self::Convergence, Self::Modes, Self::Border];
+        [Self::Line, Self::Map, Self::Directions, Self::Campbell, Self::Mesh, Self::Modes, Self::Border];
 
     /// Its name for programs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Line => "line",
             Self::Map => "map",
-            Self::Polar => "polar",
+            Self::Directions => "directions",
             Self::Campbell => "campbell",
-            Self::Convergence => "convergence",
+            Self::Mesh => "mesh",
             Self::Modes => "modes",
             Self::Border => "border",
         }
@@ -161,9 +161,9 @@ impl Study {
         match self {
             Self::Line { .. } => Topic::Line,
             Self::Map { .. } => Topic::Map,
-            Self::Polar { .. } => Topic::Polar,
-            Self::Speeds { .. } => Topic::Campbell,
-            Self::Elements { .. } => Topic::Convergence,
+            Self::Directions { .. } => Topic::Directions,
+            Self::Campbell { .. } => Topic::Campbell,
+            Self::Mesh { .. } => Topic::Mesh,
             Self::Modes { .. } => Topic::Modes,
             Self::Border { .. } => Topic::Border,
         }
@@ -174,8 +174,8 @@ impl Study {
         match self {
             Self::Line { line, .. } => line.count,
             Self::Map { grid, .. } => grid.len(),
-            Self::Polar { count, .. } | Self::Speeds { count, .. } => *count,
-            Self::Elements { counts, .. } => counts.len(),
+            Self::Directions { count, .. } | Self::Campbell { count, .. } => *count,
+            Self::Mesh { counts, .. } => counts.len(),
             Self::Modes { .. } => 1,
             Self::Border { grid } => grid.ny,
         }
@@ -191,7 +191,7 @@ impl Study {
     pub fn order(&self) -> Vec<usize> {
         match self {
             Self::Map { grid, .. } => grid.coarse_first(),
-            Self::Elements { counts, .. } => {
+            Self::Mesh { counts, .. } => {
                 let mut order: Vec<usize> = (0..counts.len()).collect();
                 order.sort_by_key(|&index| counts[index]);
                 order
@@ -219,11 +219,13 @@ impl Study {
                 }
                 Mapped::Growth { speed } => Answer::Growth(directions.growth(robot, grid.position(index), speed).await),
             },
-            Self::Polar { position, count, limit } => critical(robot, *position, compass(index, *count), *limit).await,
-            Self::Speeds { position, direction, to, count } => {
+            Self::Directions { position, count, limit } => {
+                critical(robot, *position, compass(index, *count), *limit).await
+            }
+            Self::Campbell { position, direction, to, count } => {
                 Answer::Spectrum(spectrum(robot, *position, *direction, evenly(0.0, *to, index, *count)).await)
             }
-            Self::Elements { position, direction, counts, limit } => {
+            Self::Mesh { position, direction, counts, limit } => {
                 let elements = counts.get(index).copied().unwrap_or_default();
                 match Robot::new(RobotSpec { elements, ..(**robot).clone() }) {
                     Ok(robot) => critical(&robot, *position, *direction, *limit).await,
@@ -240,12 +242,12 @@ impl Study {
         match self {
             Self::Line { line, .. } => unknown(line.direction),
             Self::Map { mapped: Mapped::Growth { .. }, .. } => Answer::Growth(Err(NoEigenvalues::Failed)),
-            Self::Map { directions: Directions::One(direction), .. } | Self::Elements { direction, .. } => {
+            Self::Map { directions: Directions::One(direction), .. } | Self::Mesh { direction, .. } => {
                 unknown(*direction)
             }
             Self::Map { directions: Directions::Worst(_), .. } => unknown(Vec2::x()),
-            Self::Polar { count, .. } => unknown(compass(index, *count)),
-            Self::Speeds { .. } => Answer::Spectrum(Err(NoEigenvalues::Failed)),
+            Self::Directions { count, .. } => unknown(compass(index, *count)),
+            Self::Campbell { .. } => Answer::Spectrum(Err(NoEigenvalues::Failed)),
             Self::Modes { .. } => Answer::Modes(Err(NoEigenvalues::Failed)),
             Self::Border { grid } => Answer::Border(Strip::unknown(grid.nx)),
         }
@@ -287,10 +289,10 @@ mod tests {
     fn every_topic_is_in_the_list() {
         let after = |topic: Topic| match topic {
             Topic::Line => Some(Topic::Map),
-            Topic::Map => Some(Topic::Polar),
-            Topic::Polar => Some(Topic::Campbell),
-            Topic::Campbell => Some(Topic::Convergence),
-            Topic::Convergence => Some(Topic::Modes),
+            Topic::Map => Some(Topic::Directions),
+            Topic::Directions => Some(Topic::Campbell),
+            Topic::Campbell => Some(Topic::Mesh),
+            Topic::Mesh => Some(Topic::Modes),
             Topic::Modes => Some(Topic::Border),
             Topic::Border => None,
         };

@@ -7,7 +7,7 @@ import {
 
 const PHONE = { width: 360, height: 740 };
 /** The plots that come of studies, and what these are about. */
-const TOPICS = { "Along the line": "line", "Directions": "polar", "Speed diagram": "campbell", "Mesh error": "convergence" };
+const TOPICS = { "Along the line": "line", "Directions": "directions", "Speed diagram": "campbell", "Mesh error": "mesh" };
 
 const switchMapOn = (page) => press(page, "Map", "button");
 const studies = (page) => page.evaluate(() => window.tautline.studies());

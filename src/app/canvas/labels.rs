@@ -11,13 +11,13 @@ const WORDS_OVER_LINES: usize = 1000;
 
 /// The places that are taken.
 #[derive(Clone, Debug)]
-pub struct Places {
+pub struct LabelRoom {
     room: Rect,
     words: Vec<Rect>,
     lines: Vec<[Pos2; 2]>,
 }
 
-impl Places {
+impl LabelRoom {
     /// All of `room` is free.
     pub fn new(room: Rect) -> Self {
         Self { room, words: Vec::new(), lines: Vec::new() }
@@ -77,7 +77,7 @@ pub fn beside(point: Pos2, towards: Vec2, gap: f32, size: Vec2) -> Rect {
     Rect::from_center_size(point + towards * (gap + reach), size)
 }
 
-/// Places for words of this size beside a line, at these parts of its length: first on the side that points up.
+/// LabelRoom for words of this size beside a line, at these parts of its length: first on the side that points up.
 pub fn along(line: &[Pos2], parts: &[f32], gap: f32, size: Vec2) -> Vec<Rect> {
     let lengths: Vec<f32> = line.windows(2).map(|ends| (ends[1] - ends[0]).length()).collect();
     let whole: f32 = lengths.iter().sum();
@@ -109,7 +109,7 @@ pub struct Pen<'a> {
     /// The letters.
     pub font: FontId,
     /// What is taken.
-    pub places: Places,
+    pub places: LabelRoom,
 }
 
 impl Pen<'_> {
@@ -130,8 +130,8 @@ mod tests {
 
     const SIZE: Vec2 = Vec2::new(60.0, 14.0);
 
-    fn places() -> Places {
-        Places::new(Rect::from_min_size(Pos2::ZERO, Vec2::new(400.0, 300.0)))
+    fn places() -> LabelRoom {
+        LabelRoom::new(Rect::from_min_size(Pos2::ZERO, Vec2::new(400.0, 300.0)))
     }
 
     #[test]

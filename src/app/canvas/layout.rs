@@ -26,7 +26,7 @@ pub struct Layout {
 
 /// A speed marked on the line of the motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark {
+pub struct SpeedMark {
     /// Where it is; where that is not on the canvas, the end of the line on it.
     pub at: Pos2,
     /// Whether it lies beyond the canvas.
@@ -63,12 +63,12 @@ impl Layout {
     }
 
     /// Where a speed in m/s is marked; nowhere where the platform itself is not on the canvas.
-    pub fn mark(&self, speed: f64) -> Option<Mark> {
+    pub fn mark(&self, speed: f64) -> Option<SpeedMark> {
         if self.room.is_infinite() {
             return None;
         }
         let away = self.arrow.away(speed, self.view.scale);
-        Some(Mark { at: self.platform + self.ahead * away.min(self.room), beyond: away > self.room })
+        Some(SpeedMark { at: self.platform + self.ahead * away.min(self.room), beyond: away > self.room })
     }
 
     /// The unit vector across the motion that points up on the screen, to the right where the motion goes straight up or down.

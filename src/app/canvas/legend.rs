@@ -6,7 +6,6 @@ use super::paint::{tension_colour, trimmed};
 use crate::app::icons::{Icon, IconButton};
 use crate::app::meaning::Explain as _;
 use crate::app::theme;
-use crate::scenario::Scenario;
 
 /// The bar of colours, in points.
 const BAR: Vec2 = Vec2::new(180.0, 8.0);
@@ -16,32 +15,6 @@ const SHORT: f32 = 150.0;
 const NUMBERS: f64 = 5.0;
 /// From this force on, in N, the bar's numbers are in kN.
 const LARGE: f64 = 1e4;
-
-/// The range of the tensions' colours, from 0. It stays until it is asked to fit or another robot is opened: the colours of
-/// two poses can be compared.
-#[derive(Clone, Debug, Default)]
-pub struct Range {
-    /// Its end in N.
-    strongest: Option<f64>,
-    /// The robot as it was opened for which it was made.
-    robot: Option<Scenario>,
-}
-
-impl Range {
-    /// Fits it to the forces that are there next.
-    pub fn fit(&mut self) {
-        self.robot = None;
-    }
-
-    /// The end of the range in N for a robot that was opened as `robot`. The `largest` force in N is what it is fitted to, if
-    /// it has to be and the force `is_current`, not one of a robot before.
-    pub fn end(&mut self, robot: &Scenario, largest: Option<f64>, is_current: bool) -> f64 {
-        if self.robot.as_ref() != Some(robot) && is_current && largest.is_some() {
-            (self.strongest, self.robot) = (largest, Some(robot.clone()));
-        }
-        self.strongest.or(largest).unwrap_or(0.0)
-    }
-}
 
 /// The forces in N that are written at a bar from 0 to `strongest`.
 fn numbers(strongest: f64) -> Vec<f64> {
@@ -111,11 +84,10 @@ pub fn fit(ui: &mut Ui, room: Rect, layout: Layout, named: bool, height: f32) ->
 
 #[cfg(test)]
 mod tests {
-    // Ends of ranges are copied, not computed.
+    // Round numbers.
     #![expect(clippy::float_cmp)]
 
     use super::*;
-    use crate::scenario::presets;
 
     #[test]
     fn the_bar_has_about_five_round_numbers() {
@@ -127,19 +99,5 @@ mod tests {
             assert!(numbers.iter().all(|&force| force <= 1.000_001 * strongest));
         }
         assert!(numbers(0.0).is_empty() && numbers(f64::NAN).is_empty());
-    }
-
-    #[test]
-    fn the_range_stays_until_it_is_asked_to_fit_or_another_robot_comes() {
-        let [paper, facade] = [0, 1].map(|i| presets::PRESETS[i].scenario());
-        let mut range = Range::default();
-        // Nothing is known at first.
-        assert_eq!((range.end(&paper, None, false), range.end(&paper, Some(204.0), true)), (0.0, 204.0));
-        assert_eq!((range.end(&paper, Some(900.0), true), range.end(&paper, None, true)), (204.0, 204.0));
-        range.fit();
-        assert_eq!((range.end(&paper, Some(900.0), true), range.end(&paper, Some(20.0), true)), (900.0, 900.0));
-        // The forces are still those of the robot before.
-        assert_eq!(range.end(&facade, Some(20.0), false), 900.0);
-        assert_eq!((range.end(&facade, Some(4e3), true), range.end(&facade, Some(1.0), true)), (4e3, 4e3));
     }
 }

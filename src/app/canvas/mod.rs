@@ -22,11 +22,12 @@ pub use eframe::egui::epaint::MarginF32 as Insets;
 
 use arrow::Arrow;
 use handles::Held;
-use labels::{Pen, Places};
+use labels::{LabelRoom, Pen};
 use layout::{Before, Layout};
 pub use map::named;
 pub use model::{Scene, advance, frame, step};
 use paint::Look;
+use range::KeptRange;
 pub use view::View;
 
 use crate::app::answers::CriticalState;
@@ -36,6 +37,7 @@ use crate::app::state::{Camera, Plot, Session, UiState};
 use crate::app::{digits, series, theme};
 use crate::compute::protocol::{Revision, Topic};
 use crate::robot::BoundingBox;
+use crate::scenario::Scenario;
 
 /// A critical speed that has been recomputed for longer than this, in s, is shown as an old one. Before that it would only
 /// flicker.
@@ -78,7 +80,7 @@ pub struct Runtime {
     /// What was held then.
     held: Held,
     /// The range of the tensions' colours.
-    range: legend::Range,
+    range: KeptRange<Scenario>,
     /// Which state the critical speed on show belongs to, where that is an earlier one, and since when it has been, in s.
     old: Option<(Option<Revision>, f64)>,
 }
@@ -127,14 +129,21 @@ pub fn ui(
         paint::hovered(&painter, view, cable, pen.tokens);
     }
     let largest = scene.largest_force();
-    let strongest = runtime.range.end(&document.original, largest, answers.pose_is_current());
+    let forces = largest.map(|largest| [0.0, largest]);
+    // Until another robot's forces are known, those on show belong to the robot before.
+    let range = if answers.pose_is_current() || runtime.range.kept().is_none() {
+        runtime.range.update(&document.original, forces, answers.pose_is_current())
+    } else {
+        runtime.range.kept()
+    };
+    let strongest = range.map_or(0.0, |[_, strongest]| strongest);
     let look = Look { over_map: state.map.on, strongest, compact: space.compact && rect.width() < NARROW };
     paint::scene(&mut pen, ui.visuals(), &layout, &scene, look);
     velocity::ui(&mut pen, &layout, &scene, said(runtime, ui, &scene, look, facts));
     trouble::ui(&mut pen, &layout, &scene);
     paint::responsible(&mut pen, &layout, &scene, look);
     // The marker belongs to the diagram beside it, and to one pose.
-    let polar = studies.shown(Topic::Polar).filter(|shown| shown.current && state.plot == Plot::Directions);
+    let polar = studies.shown(Topic::Directions).filter(|shown| shown.current && state.plot == Plot::Directions);
     if let Some((direction, speed)) = polar.and_then(|shown| series::worst_direction(shown.known)) {
         velocity::worst(&mut pen, &layout, direction, &digits::like(speed, facts.share()));
     }
@@ -183,7 +192,7 @@ fn pen<'a>(ui: &Ui, painter: &'a Painter, rect: Rect, space: Space) -> Pen<'a> {
     if space.compact {
         font.size -= 1.0;
     }
-    let mut places = Places::new(rect.shrink(4.0));
+    let mut places = LabelRoom::new(rect.shrink(4.0));
     if space.legend {
         places.keep_free(space.corner);
     }

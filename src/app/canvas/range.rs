@@ -32,6 +32,11 @@ impl<About: PartialEq + Clone> KeptRange<About> {
         self.kept.or(fitting)
     }
 
+    /// The range that is kept, once there is one.
+    pub fn kept(&self) -> Option<[f64; 2]> {
+        self.kept
+    }
+
     /// Takes the range that fits the values there are.
     pub fn fit(&mut self) {
         self.kept = self.fitting;
@@ -56,6 +61,7 @@ mod tests {
         // Until a picture is complete, the range follows it.
         assert_eq!(range.update(&"speeds", Some([3.0, 5.0]), false), Some([3.0, 5.0]));
         assert_eq!(range.update(&"speeds", Some([2.0, 6.0]), true), Some([2.0, 6.0]));
+        assert_eq!(range.kept(), Some([2.0, 6.0]));
         assert!(!range.could_fit());
         assert_eq!(range.update(&"speeds", Some([2.01, 6.0]), true), Some([2.0, 6.0]));
         assert!(!range.could_fit(), "nobody would see it");

@@ -3,7 +3,7 @@
 use eframe::egui::{Color32, Pos2, Rect, Shape, Stroke, Vec2};
 
 use super::labels::{Pen, beside};
-use super::layout::{Layout, Mark};
+use super::layout::{Layout, SpeedMark};
 use super::paint::dashed;
 use super::{Scene, View};
 
@@ -64,12 +64,12 @@ pub fn ui(pen: &mut Pen<'_>, layout: &Layout, scene: &Scene, said: Said) {
     }
 }
 
-fn away(layout: &Layout, mark: Mark) -> f32 {
+fn away(layout: &Layout, mark: SpeedMark) -> f32 {
     (mark.at - layout.platform).length()
 }
 
 /// A mark across the line; beyond the canvas a small triangle that points there, on one side of the line.
-fn tick(pen: &Pen<'_>, layout: &Layout, mark: Mark, stroke: Stroke, dotted: bool, side: f32) {
+fn tick(pen: &Pen<'_>, layout: &Layout, mark: SpeedMark, stroke: Stroke, dotted: bool, side: f32) {
     let (ahead, up) = (layout.ahead, layout.up());
     if mark.beyond {
         let middle = mark.at + up * (7.0 * side);

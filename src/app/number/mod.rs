@@ -43,7 +43,7 @@ pub struct Control<'a> {
 
 /// What a control says in one frame.
 #[derive(Debug)]
-pub struct Answer {
+pub struct NumberResponse {
     /// The control.
     pub response: Response,
     /// The number that was typed or dragged, as it is stored.
@@ -52,7 +52,7 @@ pub struct Answer {
     typed: Option<Typing>,
 }
 
-impl Answer {
+impl NumberResponse {
     /// Tells beside the control why its number is refused. Who has pressed Enter can go on with the text.
     pub fn refuse(self, ui: &Ui, reason: String) {
         refuse(ui.ctx(), self.response.id, self.typed.as_ref(), reason);
@@ -122,7 +122,7 @@ fn refuse(context: &Context, id: Id, typed: Option<&Typing>, reason: String) {
 
 impl Control<'_> {
     /// Draws the control of the stored number `value`.
-    pub fn show(&self, ui: &mut Ui, value: f64) -> Answer {
+    pub fn show(&self, ui: &mut Ui, value: f64) -> NumberResponse {
         let layout = Layout::centered_and_justified(ui.layout().main_dir());
         let answer = ui.allocate_ui_with_layout(self.size, layout, |ui| {
             ui.set_min_size(self.size);
@@ -138,7 +138,7 @@ impl Control<'_> {
         answer
     }
 
-    fn inside(&self, ui: &mut Ui, value: f64) -> Answer {
+    fn inside(&self, ui: &mut Ui, value: f64) -> NumberResponse {
         // The same for the text and for the button in its place.
         let id = ui.next_auto_id();
         let layer = ui.layer_id();
@@ -178,7 +178,7 @@ impl Control<'_> {
     }
 
     /// Lets the text be edited.
-    fn text(&self, ui: &mut Ui, id: Id, value: f64, typing: Option<Typing>) -> Answer {
+    fn text(&self, ui: &mut Ui, id: Id, value: f64, typing: Option<Typing>) -> NumberResponse {
         let begun = typing.filter(|typing| typing.value == value.to_bits());
         let is_new = begun.is_none();
         let mut typing = begun.unwrap_or_else(|| {
@@ -215,7 +215,7 @@ impl Control<'_> {
             typing.refused = None;
             forget_message_of(ui.ctx(), id);
         }
-        let mut answer = Answer { response, value: None, typed: None };
+        let mut answer = NumberResponse { response, value: None, typed: None };
         if escaped {
             ui.memory_mut(|memory| memory.surrender_focus(id));
             ui.data_mut(|data| data.remove::<Typing>(typing_id()));
@@ -261,7 +261,7 @@ impl Control<'_> {
     }
 
     /// Shows the number; a click edits it, dragging changes it.
-    fn button(&self, ui: &mut Ui, id: Id, value: f64) -> Answer {
+    fn button(&self, ui: &mut Ui, id: Id, value: f64) -> NumberResponse {
         let short = self.short(ui, value);
         let style = ui.style().drag_value_text_style.clone();
         let button = Button::new(RichText::new(&short).text_style(style))
@@ -277,7 +277,7 @@ impl Control<'_> {
             ui.memory_mut(|memory| memory.request_focus(id));
         }
         let value = self.dragged(ui, &response, value);
-        Answer { response, value, typed: None }
+        NumberResponse { response, value, typed: None }
     }
 
     /// The number where it is dragged to, to the right or up.

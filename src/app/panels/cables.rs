@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, Color32, ComboBox, FontId, Label, Pos2, RichText, Role, Sense, Ui, Vec2, WidgetInfo};
 
-use super::rows::{Sheet, list, rows};
+use super::rows::{EditedScenario, list, rows};
 use crate::app::command::Command;
 use crate::app::facts::Facts;
 use crate::app::icons::{Icon, IconButton};
@@ -21,7 +21,7 @@ const ROW: f32 = 26.0;
 pub(super) fn ui(
     session: &mut Session,
     ui: &mut Ui,
-    sheet: &mut Sheet<'_>,
+    sheet: &mut EditedScenario<'_>,
     facts: Facts<'_>,
     _commands: &mut Vec<Command>,
 ) {
@@ -144,7 +144,14 @@ fn put(ui: &mut Ui, at: Pos2, align: Align2, text: RichText) -> eframe::egui::Re
 }
 
 /// One cable in a line. A click opens its numbers.
-fn row(session: &mut Session, ui: &mut Ui, sheet: &Sheet<'_>, facts: Facts<'_>, columns: &Columns, cable: usize) {
+fn row(
+    session: &mut Session,
+    ui: &mut Ui,
+    sheet: &EditedScenario<'_>,
+    facts: Facts<'_>,
+    columns: &Columns,
+    cable: usize,
+) {
     let tokens = theme::tokens(ui.visuals());
     let height = if sheet.touch { 44.0 } else { ROW };
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), height), Sense::click());
@@ -231,7 +238,7 @@ fn newtons(force: f64) -> String {
 }
 
 /// The numbers of one cable.
-fn details(ui: &mut Ui, sheet: &mut Sheet<'_>, cable: usize) {
+fn details(ui: &mut Ui, sheet: &mut EditedScenario<'_>, cable: usize) {
     rows(ui, sheet, &[Parameter::Anchor(cable, 0), Parameter::Anchor(cable, 1)]);
     let law = sheet.edited.cables[cable].tension;
     if law != TensionLaw::Equilibrium {
@@ -267,7 +274,7 @@ fn details(ui: &mut Ui, sheet: &mut Sheet<'_>, cable: usize) {
 }
 
 /// Width and height of the frame that the winches span; another one moves them all in proportion.
-fn frame(ui: &mut Ui, sheet: &mut Sheet<'_>) {
+fn frame(ui: &mut Ui, sheet: &mut EditedScenario<'_>) {
     ui.horizontal_wrapped(|ui| {
         ui.label("Frame").explained("The workspace that the winches span. Another size moves them in proportion.");
         for (i, name) in [(0, "Width"), (1, "Height")] {

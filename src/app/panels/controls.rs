@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 
 use super::cables;
-use super::rows::{Sheet, in_a_row, rows};
+use super::rows::{EditedScenario, in_a_row, rows};
 use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::facts::Facts;
@@ -42,7 +42,8 @@ pub fn ui(
 ) {
     let Facts { document, settings, .. } = facts;
     let edited = document.scenario.clone();
-    let mut sheet = Sheet { edited, original: &document.original, revealed: session.revealed, settings, touch };
+    let mut sheet =
+        EditedScenario { edited, original: &document.original, revealed: session.revealed, settings, touch };
     reveal(sections, session.revealed);
     if groups == Groups::Motion {
         rows(ui, &mut sheet, &fields::MOTION);
@@ -89,10 +90,10 @@ fn alone(
     ui: &mut Ui,
     Facts { document, settings, .. }: Facts<'_>,
     commands: &mut Vec<Command>,
-    content: impl FnOnce(&mut Ui, &mut Sheet<'_>),
+    content: impl FnOnce(&mut Ui, &mut EditedScenario<'_>),
 ) {
     let edited = document.scenario.clone();
-    let mut sheet = Sheet { edited, original: &document.original, revealed: None, settings, touch: false };
+    let mut sheet = EditedScenario { edited, original: &document.original, revealed: None, settings, touch: false };
     content(ui, &mut sheet);
     if sheet.edited != document.scenario {
         commands.push(Command::Edit(Box::new(sheet.edited)));
@@ -119,7 +120,7 @@ fn reveal(sections: &mut Sections, revealed: Option<Parameter>) {
 }
 
 /// The values of a group in a few words.
-fn values(sheet: &Sheet<'_>, list: &[Parameter]) -> String {
+fn values(sheet: &EditedScenario<'_>, list: &[Parameter]) -> String {
     let frame = canvas::frame(&sheet.edited);
     let value = |parameter: &Parameter| {
         let field = Field::of(*parameter, frame).in_units_of(sheet.settings);

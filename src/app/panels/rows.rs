@@ -18,7 +18,7 @@ pub(super) const NUMBER: Vec2 = Vec2::new(84.0, 24.0);
 const NUMBER_FOR_FINGERS: Vec2 = Vec2::new(96.0, 44.0);
 
 /// The scenario on its way through the controls.
-pub(super) struct Sheet<'a> {
+pub(super) struct EditedScenario<'a> {
     /// With what has been changed so far.
     pub(super) edited: Scenario,
     /// What values reset to.
@@ -32,7 +32,7 @@ pub(super) struct Sheet<'a> {
 }
 
 /// A row for each number.
-pub(super) fn rows(ui: &mut Ui, sheet: &mut Sheet<'_>, list: &[Parameter]) {
+pub(super) fn rows(ui: &mut Ui, sheet: &mut EditedScenario<'_>, list: &[Parameter]) {
     if sheet.touch {
         ui.spacing_mut().item_spacing.y = 0.0;
     }
@@ -43,7 +43,7 @@ pub(super) fn rows(ui: &mut Ui, sheet: &mut Sheet<'_>, list: &[Parameter]) {
 }
 
 /// Name, reset and typed value on one line, the slider beneath over the full width. For fingers there are − and + as well.
-fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
+fn row(ui: &mut Ui, sheet: &mut EditedScenario<'_>, field: &Field) {
     let value = field.parameter.get(&sheet.edited);
     let unit = field.unit();
     let [low, high] = field.range;
@@ -81,7 +81,7 @@ fn row(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field) {
 }
 
 /// Name, slider and typed value in one row.
-pub(super) fn in_a_row(ui: &mut Ui, sheet: &mut Sheet<'_>, parameter: Parameter) {
+pub(super) fn in_a_row(ui: &mut Ui, sheet: &mut EditedScenario<'_>, parameter: Parameter) {
     let field = Field::of(parameter, canvas::frame(&sheet.edited)).in_units_of(sheet.settings);
     let value = parameter.get(&sheet.edited);
     let [low, high] = field.range;
@@ -96,7 +96,13 @@ pub(super) fn in_a_row(ui: &mut Ui, sheet: &mut Sheet<'_>, parameter: Parameter)
 }
 
 /// The slider of a number. Gives the number, as it is stored, where it was moved.
-fn slider(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field, value: f64, name: eframe::egui::Id) -> Option<f64> {
+fn slider(
+    ui: &mut Ui,
+    sheet: &mut EditedScenario<'_>,
+    field: &Field,
+    value: f64,
+    name: eframe::egui::Id,
+) -> Option<f64> {
     let unit = field.unit();
     let [low, high] = field.range;
     let before = unit.shown(value);
@@ -129,7 +135,7 @@ fn slider(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field, value: f64, name: e
 }
 
 /// Puts the number that was typed, dragged or slid in its place, where it is allowed.
-fn take(ui: &Ui, sheet: &mut Sheet<'_>, field: &Field, answer: number::Answer) {
+fn take(ui: &Ui, sheet: &mut EditedScenario<'_>, field: &Field, answer: number::NumberResponse) {
     if let Some(value) = answer.value {
         // A hand that drags too far stops at zero, where there is nothing beyond.
         let value = if field.range[0] == 0.0 && answer.response.dragged() { value.max(0.0) } else { value };
@@ -141,7 +147,7 @@ fn take(ui: &Ui, sheet: &mut Sheet<'_>, field: &Field, answer: number::Answer) {
 }
 
 /// The number between a minus and a plus, from right to left.
-fn stepped(ui: &mut Ui, control: &Control<'_>, title: &str, value: f64) -> number::Answer {
+fn stepped(ui: &mut Ui, control: &Control<'_>, title: &str, value: f64) -> number::NumberResponse {
     let more = IconButton::new(Icon::Plus, &format!("More {title}")).height(44.0).show(ui).clicked();
     let mut answer = control.show(ui, value);
     let less = IconButton::new(Icon::Minus, &format!("Less {title}")).height(44.0).show(ui).clicked();
@@ -153,7 +159,7 @@ fn stepped(ui: &mut Ui, control: &Control<'_>, title: &str, value: f64) -> numbe
 }
 
 /// Takes a number back to what it was when the robot was opened, where it differs.
-fn reset(ui: &mut Ui, sheet: &mut Sheet<'_>, field: &Field, title: &str) {
+fn reset(ui: &mut Ui, sheet: &mut EditedScenario<'_>, field: &Field, title: &str) {
     let original = field.parameter.get(sheet.original);
     if !field.parameter.is_in(sheet.original) || same(field.parameter.get(&sheet.edited), original) {
         return;

@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Complex;
 
-use crate::app::studies::Known;
+use crate::app::studies::StudyResults;
 use crate::stability::{Critical, first_lowest};
 use crate::study::campbell::Track;
 use crate::study::convergence::{self, Convergence};
@@ -53,8 +53,8 @@ pub struct Along {
 
 impl Along {
     /// Those of `known`, where it is a line.
-    pub fn new(known: &Known) -> Option<Self> {
-        let Study::Line { line, .. } = &known.wish.study else { return None };
+    pub fn new(known: &StudyResults) -> Option<Self> {
+        let Study::Line { line, .. } = &known.request.study else { return None };
         let direction: [f64; 2] = line.direction.into();
         let abscissa = match direction {
             [_, 0.0] => Abscissa::X,
@@ -188,8 +188,8 @@ fn sample_of_speed(at: f64, verdict: Option<&Verdict>) -> Option<Sample> {
 }
 
 /// The directions of a polar diagram: the unit vector and what is known, counterclockwise.
-pub fn directions<'a>(known: &'a Known) -> Vec<([f64; 2], Option<&'a Verdict>)> {
-    let Study::Polar { count, .. } = known.wish.study else { return Vec::new() };
+pub fn directions<'a>(known: &'a StudyResults) -> Vec<([f64; 2], Option<&'a Verdict>)> {
+    let Study::Directions { count, .. } = known.request.study else { return Vec::new() };
     let place = |(i, answer): (usize, &'a Option<Answer>)| match answer {
         Some(Answer::Critical { verdict, .. }) => (compass(i, count).into(), Some(verdict)),
         _ => (compass(i, count).into(), None),
@@ -199,7 +199,7 @@ pub fn directions<'a>(known: &'a Known) -> Vec<([f64; 2], Option<&'a Verdict>)> 
 
 /// The stretches of a polar diagram on which the critical speed does not jump, as points (critical speed times direction,
 /// in m/s). Once around and back to the first direction; what is not known yet is no gap.
-pub fn around(known: &Known) -> Vec<Vec<[f64; 2]>> {
+pub fn around(known: &StudyResults) -> Vec<Vec<[f64; 2]>> {
     let all = directions(known);
     let known: Vec<([f64; 2], &Verdict)> =
         all.iter().chain(all.first()).filter_map(|(direction, verdict)| Some((*direction, (*verdict)?))).collect();
@@ -222,8 +222,8 @@ pub fn around(known: &Known) -> Vec<Vec<[f64; 2]>> {
 
 /// The wave limit in every direction as points (limit times direction, in m/s), once around and back to the first
 /// direction; it ends where there is none.
-pub fn waves_around(known: &Known) -> Vec<Vec<[f64; 2]>> {
-    let Study::Polar { count, .. } = known.wish.study else { return Vec::new() };
+pub fn waves_around(known: &StudyResults) -> Vec<Vec<[f64; 2]>> {
+    let Study::Directions { count, .. } = known.request.study else { return Vec::new() };
     let all = known.places.iter().enumerate().chain(known.places.first().map(|first| (0, first)));
     // What is not known yet is no gap.
     let answered = all.filter_map(|(i, answer)| Some((i, answer.as_ref()?)));
@@ -237,7 +237,7 @@ pub fn waves_around(known: &Known) -> Vec<Vec<[f64; 2]>> {
 }
 
 /// The direction with the lowest critical speed, and that speed in m/s.
-pub fn worst_direction(known: &Known) -> Option<([f64; 2], f64)> {
+pub fn worst_direction(known: &StudyResults) -> Option<([f64; 2], f64)> {
     let speed = |(direction, verdict): ([f64; 2], Option<&Verdict>)| Some((direction, verdict?.critical()?.speed));
     let critical: Vec<([f64; 2], f64)> = directions(known).into_iter().filter_map(speed).collect();
     first_lowest(critical.iter().map(|(_, speed)| *speed)).map(|index| critical[index])
@@ -249,8 +249,8 @@ pub fn degrees([x, y]: [f64; 2]) -> f64 {
 }
 
 /// The eigenvalues of a Campbell diagram one by one: speed in m/s and eigenvalue in 1/s.
-pub fn spectra(known: &Known) -> Vec<(f64, Complex<f64>)> {
-    let Study::Speeds { to, count, .. } = known.wish.study else { return Vec::new() };
+pub fn spectra(known: &StudyResults) -> Vec<(f64, Complex<f64>)> {
+    let Study::Campbell { to, count, .. } = known.request.study else { return Vec::new() };
     let mut all = Vec::new();
     for (i, answer) in known.places.iter().enumerate() {
         if let Some(Answer::Spectrum(Ok(values))) = answer {
@@ -262,8 +262,8 @@ pub fn spectra(known: &Known) -> Vec<(f64, Complex<f64>)> {
 
 /// The spectra of a Campbell diagram up to `highest` Hz, to be joined to modes: speeds in m/s and eigenvalues in 1/s. Speeds
 /// that are not answered yet are left out.
-pub fn spectra_up_to(known: &Known, highest: f64) -> Vec<(f64, Vec<Complex<f64>>)> {
-    let Study::Speeds { to, count, .. } = known.wish.study else { return Vec::new() };
+pub fn spectra_up_to(known: &StudyResults, highest: f64) -> Vec<(f64, Vec<Complex<f64>>)> {
+    let Study::Campbell { to, count, .. } = known.request.study else { return Vec::new() };
     // Somewhat more than is drawn, so that modes do not end below the edge; all of them would take long to join.
     let drawn = |value: &&Complex<f64>| value.im <= 1.5 * highest * TAU;
     let spectrum = |(i, answer): (usize, &Option<Answer>)| match answer {
@@ -333,13 +333,13 @@ pub struct Meshes {
 
 impl Meshes {
     /// Those of `known`, where it is about meshes, with `today` elements per cable.
-    pub fn new(known: &Known, today: usize) -> Option<Self> {
+    pub fn new(known: &StudyResults, today: usize) -> Option<Self> {
         Self::with(known, today, None)
     }
 
     /// The same where the critical speed on today's mesh is known from elsewhere.
-    pub fn with(known: &Known, today: usize, at_today: Option<&Critical>) -> Option<Self> {
-        let Study::Elements { counts, .. } = &known.wish.study else { return None };
+    pub fn with(known: &StudyResults, today: usize, at_today: Option<&Critical>) -> Option<Self> {
+        let Study::Mesh { counts, .. } = &known.request.study else { return None };
         let verdict = |(n, answer): (&usize, &Option<Answer>)| match answer {
             Some(Answer::Critical { verdict, .. }) => Some((*n, verdict.clone())),
             _ => None,
@@ -371,7 +371,7 @@ mod tests {
     #![expect(clippy::float_cmp)]
 
     use super::*;
-    use crate::app::studies::Wish;
+    use crate::app::studies::StudyRequest;
     use crate::robot::Vec2;
     use crate::scenario::{Scenario, presets};
     use crate::stability::Instability;
@@ -398,9 +398,9 @@ mod tests {
         Study::Line { line: Line::through(&robot, &motion, 21), limit: 40.0 }
     }
 
-    fn known(study: Study, answer: impl Fn(usize) -> Option<Answer>) -> Known {
-        let wish = Wish::new(&paper(), study);
-        Known { places: (0..wish.study.len()).map(answer).collect(), wish, version: (1, 0) }
+    fn known(study: Study, answer: impl Fn(usize) -> Option<Answer>) -> StudyResults {
+        let request = StudyRequest::new(&paper(), study);
+        StudyResults { places: (0..request.study.len()).map(answer).collect(), request, version: (1, 0) }
     }
 
     #[test]
@@ -469,7 +469,7 @@ mod tests {
 
     #[test]
     fn the_worst_direction_is_the_lowest() {
-        let study = Study::Polar { position: Vec2::zeros(), count: 8, limit: 40.0 };
+        let study = Study::Directions { position: Vec2::zeros(), count: 8, limit: 40.0 };
         let known = known(study, |i| match i {
             0 => None,
             1 => Some(nothing()),
@@ -483,7 +483,7 @@ mod tests {
 
     #[test]
     fn modes_are_cut_where_they_become_unstable() {
-        let study = Study::Speeds { position: Vec2::zeros(), direction: Vec2::x(), to: 4.0, count: 5 };
+        let study = Study::Campbell { position: Vec2::zeros(), direction: Vec2::x(), to: 4.0, count: 5 };
         let answer = |i: usize| {
             let re = i as f64 - 1.5;
             (i != 2).then(|| Answer::Spectrum(Ok(vec![Complex::new(re, 10.0), Complex::new(-1.0, 1e4)])))
@@ -500,7 +500,7 @@ mod tests {
     fn meshes_lead_to_their_limit() {
         let counts = vec![4, 10, 20, 40, 80];
         let (position, direction) = (Vec2::zeros(), Vec2::x());
-        let study = Study::Elements { position, direction, counts: counts.clone(), limit: 40.0 };
+        let study = Study::Mesh { position, direction, counts: counts.clone(), limit: 40.0 };
         let answer = |i: usize| Some(critical(10.0 + 20.0 / (counts[i] * counts[i]) as f64, 1.0));
         let meshes = Meshes::new(&known(study, answer), 10).expect("meshes");
         assert_eq!(meshes.stretches().iter().map(Vec::len).collect::<Vec<_>>(), [5]);

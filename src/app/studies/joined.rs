@@ -1,6 +1,6 @@
 //! The modes of the Campbell diagram: its eigenvalues joined from speed to speed, which the pool does.
 
-use super::{Known, Order};
+use super::{Order, StudyResults};
 use crate::app::series::{self, Piece};
 use crate::compute::protocol::{Revision, StudyJob, StudyNews, Topic};
 use crate::study::{Answer, Study};
@@ -27,7 +27,7 @@ pub struct Joined {
 impl Joined {
     /// Says what the pool is to be told so that modes of `known`, the study on show, up to `highest` Hz will be there;
     /// without a study nothing is joined.
-    pub fn want(&mut self, known: Option<&Known>, highest: f64) -> Option<Order> {
+    pub fn want(&mut self, known: Option<&StudyResults>, highest: f64) -> Option<Order> {
         let Some(known) = known else {
             return self.waiting.take().map(|_| Order::Cancel(Topic::Modes));
         };
@@ -45,7 +45,7 @@ impl Joined {
         self.revision += 1;
         Some(Order::Want(StudyJob {
             revision: self.revision,
-            scenario: known.wish.scenario.to_json(),
+            scenario: known.request.scenario.to_json(),
             study: Study::Modes { spectra: series::spectra_up_to(known, highest) },
         }))
     }
@@ -82,20 +82,20 @@ impl Joined {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::studies::Wish;
+    use crate::app::studies::StudyRequest;
     use crate::robot::Vec2;
     use crate::scenario::presets;
     use crate::study::campbell::Track;
     use nalgebra::Complex;
 
     /// Two modes at four speeds, in the order in which the spectra have them.
-    fn known(answered: usize) -> Known {
-        let study = Study::Speeds { position: Vec2::zeros(), direction: Vec2::x(), to: 3.0, count: 4 };
-        let wish = Wish::new(&presets::PRESETS[0].scenario(), study);
+    fn known(answered: usize) -> StudyResults {
+        let study = Study::Campbell { position: Vec2::zeros(), direction: Vec2::x(), to: 3.0, count: 4 };
+        let request = StudyRequest::new(&presets::PRESETS[0].scenario(), study);
         let values = |i: usize| [[-0.1, 1.0 + i as f64], [-0.2, 5.0 - i as f64], [-9.0, 900.0]];
         let spectrum = |i: usize| values(i).map(|[re, im]| Complex::new(re, im)).to_vec();
         let places = (0..4).map(|i| (i < answered).then(|| Answer::Spectrum(Ok(spectrum(i))))).collect();
-        Known { wish, places, version: (7, answered) }
+        StudyResults { request, places, version: (7, answered) }
     }
 
     fn asked(order: Option<Order>) -> StudyJob {

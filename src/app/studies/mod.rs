@@ -2,15 +2,15 @@
 //!
 //! Nothing here computes or waits: [`Studies::want`] says what the pool of workers is to be told, and
 //! [`Studies::take`] takes in what it has found. A study begins anew only where something has changed that it depends
-//! on ([`Wish`]). Until a first picture of the new one is there, the last one stays on show and is marked as old.
+//! on ([`StudyRequest`]). Until a first picture of the new one is there, the last one stays on show and is marked as old.
 
 mod joined;
+mod request;
 mod shared;
-mod wish;
 
 pub use joined::Joined;
+pub use request::{StudyRequest, wanted};
 pub use shared::{Owner, SharedPool};
-pub use wish::{Wish, wanted};
 
 use std::collections::VecDeque;
 
@@ -31,7 +31,7 @@ pub enum Order {
 
 /// How a topic's study stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Stage {
+pub enum StudyStage {
     /// Nobody wants one.
     #[default]
     Idle,
@@ -47,18 +47,18 @@ pub enum Stage {
 
 /// What is known of one study.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Known {
+pub struct StudyResults {
     /// The study.
-    pub wish: Wish,
+    pub request: StudyRequest,
     /// The answers by place.
     pub places: Vec<Option<Answer>>,
     /// Changes with every answer, and is never the same for two studies of one owner.
     pub version: (Revision, usize),
 }
 
-impl Known {
-    fn new(wish: Wish, revision: Revision) -> Self {
-        Self { places: vec![None; wish.study.len()], wish, version: (revision, 0) }
+impl StudyResults {
+    fn new(request: StudyRequest, revision: Revision) -> Self {
+        Self { places: vec![None; request.study.len()], request, version: (revision, 0) }
     }
 
     /// How many places are answered.
@@ -72,7 +72,7 @@ impl Known {
     }
 
     fn is_picture(&self) -> bool {
-        self.answered() >= self.wish.first_picture()
+        self.answered() >= self.request.first_picture()
     }
 }
 
@@ -80,7 +80,7 @@ impl Known {
 #[derive(Clone, Copy, Debug)]
 pub struct Shown<'a> {
     /// The answers.
-    pub known: &'a Known,
+    pub known: &'a StudyResults,
     /// Whether they belong to what is wanted now; else they are an earlier state's.
     pub current: bool,
 }
@@ -93,20 +93,20 @@ pub struct Progress {
     /// All places.
     pub total: usize,
     /// How it stands.
-    pub stage: Stage,
+    pub stage: StudyStage,
     /// Which one it is.
     pub revision: Revision,
 }
 
 #[derive(Debug, Default)]
 struct Subject {
-    stage: Stage,
+    stage: StudyStage,
     revision: Revision,
     done: usize,
-    newest: Option<Known>,
+    newest: Option<StudyResults>,
     /// The last study that had a picture.
-    earlier: Option<Known>,
-    finished: VecDeque<Known>,
+    earlier: Option<StudyResults>,
+    finished: VecDeque<StudyResults>,
 }
 
 /// The studies of all topics but one: the joining of modes is kept apart, in [`Joined`].
@@ -123,56 +123,56 @@ fn place(topic: Topic) -> usize {
 
 impl Studies {
     /// Notes what is wanted now, at most one study of each topic, and says what is to be done for it.
-    pub fn want(&mut self, mut wishes: Vec<Wish>) -> Vec<Order> {
+    pub fn want(&mut self, mut requests: Vec<StudyRequest>) -> Vec<Order> {
         let mut orders = Vec::new();
         for topic in Topic::ALL {
-            let wish = wishes.iter().position(|wish| wish.topic() == topic).map(|i| wishes.swap_remove(i));
+            let request = requests.iter().position(|request| request.topic() == topic).map(|i| requests.swap_remove(i));
             let subject = &self.subjects[place(topic)];
-            let known = subject.newest.as_ref().map(|known| &known.wish);
-            match wish {
-                None if subject.stage == Stage::Working => {
+            let known = subject.newest.as_ref().map(|known| &known.request);
+            match request {
+                None if subject.stage == StudyStage::Working => {
                     orders.push(Order::Cancel(topic));
-                    self.subjects[place(topic)].stage = Stage::Idle;
+                    self.subjects[place(topic)].stage = StudyStage::Idle;
                 }
-                None => self.subjects[place(topic)].stage = Stage::Idle,
-                Some(wish) if known == Some(&wish) && subject.stage != Stage::Idle => {}
-                Some(wish) => orders.extend(self.begin(wish)),
+                None => self.subjects[place(topic)].stage = StudyStage::Idle,
+                Some(request) if known == Some(&request) && subject.stage != StudyStage::Idle => {}
+                Some(request) => orders.extend(self.begin(request)),
             }
         }
         orders
     }
 
-    /// Begins `wish`, or remembers its answers.
-    fn begin(&mut self, wish: Wish) -> Option<Order> {
-        let topic = wish.topic();
+    /// Begins `request`, or remembers its answers.
+    fn begin(&mut self, request: StudyRequest) -> Option<Order> {
+        let topic = request.topic();
         let subject = &mut self.subjects[place(topic)];
-        let working = subject.stage == Stage::Working;
-        let again = subject.newest.as_ref().is_some_and(|known| known.wish == wish);
-        if !again && let Some(known) = subject.newest.take().filter(Known::is_picture) {
+        let working = subject.stage == StudyStage::Working;
+        let again = subject.newest.as_ref().is_some_and(|known| known.request == request);
+        if !again && let Some(known) = subject.newest.take().filter(StudyResults::is_picture) {
             subject.earlier = Some(known);
         }
-        if let Some(known) = subject.finished.iter().find(|known| known.wish == wish) {
-            (subject.stage, subject.done) = (Stage::Finished, known.places.len());
+        if let Some(known) = subject.finished.iter().find(|known| known.request == request) {
+            (subject.stage, subject.done) = (StudyStage::Finished, known.places.len());
             subject.newest = Some(known.clone());
             return working.then_some(Order::Cancel(topic));
         }
         self.revision += 1;
         let revision = self.revision;
-        // An answer depends on the wish alone: what an earlier try has found stays.
-        let known = subject.newest.get_or_insert_with(|| Known::new(wish, revision));
-        (subject.stage, subject.revision, subject.done) = (Stage::Working, revision, 0);
+        // An answer depends on the request alone: what an earlier try has found stays.
+        let known = subject.newest.get_or_insert_with(|| StudyResults::new(request, revision));
+        (subject.stage, subject.revision, subject.done) = (StudyStage::Working, revision, 0);
         Some(Order::Want(StudyJob {
             revision,
-            scenario: known.wish.scenario.to_json(),
-            study: known.wish.study.clone(),
+            scenario: known.request.scenario.to_json(),
+            study: known.request.study.clone(),
         }))
     }
 
     /// Stops a topic's study; what is known of it stays on show.
     pub fn stop(&mut self, topic: Topic) -> Option<Order> {
         let subject = &mut self.subjects[place(topic)];
-        (subject.stage == Stage::Working).then(|| {
-            subject.stage = Stage::Stopped;
+        (subject.stage == StudyStage::Working).then(|| {
+            subject.stage = StudyStage::Stopped;
             Order::Cancel(topic)
         })
     }
@@ -180,9 +180,9 @@ impl Studies {
     /// Begins a study anew that was stopped.
     pub fn resume(&mut self, topic: Topic) -> Option<Order> {
         let subject = &self.subjects[place(topic)];
-        let stopped = matches!(subject.stage, Stage::Stopped | Stage::Failed);
-        let wish = subject.newest.as_ref().filter(|_| stopped)?.wish.clone();
-        self.begin(wish)
+        let stopped = matches!(subject.stage, StudyStage::Stopped | StudyStage::Failed);
+        let request = subject.newest.as_ref().filter(|_| stopped)?.request.clone();
+        self.begin(request)
     }
 
     /// Takes in what the pool has found. News of studies that are not wanted any more say nothing.
@@ -201,23 +201,23 @@ impl Studies {
             }
             StudyNews::Finished { topic, revision } => {
                 let Some(subject) = self.at_work(topic, revision) else { return };
-                subject.stage = Stage::Finished;
+                subject.stage = StudyStage::Finished;
                 subject.earlier = None;
-                if let Some(known) = subject.newest.clone().filter(Known::is_complete) {
+                if let Some(known) = subject.newest.clone().filter(StudyResults::is_complete) {
                     subject.finished.push_front(known);
                     subject.finished.truncate(REMEMBERED);
                 }
             }
             StudyNews::Refused { topic, revision, .. } => {
                 if let Some(subject) = self.at_work(topic, revision) {
-                    subject.stage = Stage::Failed;
+                    subject.stage = StudyStage::Failed;
                 }
             }
             StudyNews::Broken(reason) => {
                 self.broken = Some(reason);
                 for subject in &mut self.subjects {
-                    if subject.stage == Stage::Working {
-                        subject.stage = Stage::Failed;
+                    if subject.stage == StudyStage::Working {
+                        subject.stage = StudyStage::Failed;
                     }
                 }
             }
@@ -226,14 +226,14 @@ impl Studies {
 
     fn at_work(&mut self, topic: Topic, revision: Revision) -> Option<&mut Subject> {
         let subject = &mut self.subjects[place(topic)];
-        (subject.stage == Stage::Working && subject.revision == revision).then_some(subject)
+        (subject.stage == StudyStage::Working && subject.revision == revision).then_some(subject)
     }
 
     /// What there is to see of a topic: the newest study once it makes a picture, until then the one before.
     pub fn shown(&self, topic: Topic) -> Option<Shown<'_>> {
         let Subject { newest, earlier, .. } = &self.subjects[place(topic)];
         let newest = newest.as_ref();
-        if let Some(known) = earlier.as_ref().filter(|_| !newest.is_some_and(Known::is_picture)) {
+        if let Some(known) = earlier.as_ref().filter(|_| !newest.is_some_and(StudyResults::is_picture)) {
             return Some(Shown { known, current: false });
         }
         newest.map(|known| Shown { known, current: true })
@@ -248,7 +248,7 @@ impl Studies {
 
     /// Whether anything is being computed.
     pub fn is_working(&self) -> bool {
-        self.subjects.iter().any(|subject| subject.stage == Stage::Working)
+        self.subjects.iter().any(|subject| subject.stage == StudyStage::Working)
     }
 
     /// Why no study can be done, where none can.
@@ -264,15 +264,15 @@ mod tests {
     use crate::scenario::presets;
     use crate::study::Study;
 
-    fn wish(position: [f64; 2]) -> Wish {
-        let study = Study::Polar { position: Vec2::from(position), count: 8, limit: 40.0 };
-        Wish::new(&presets::PRESETS[0].scenario(), study)
+    fn request(position: [f64; 2]) -> StudyRequest {
+        let study = Study::Directions { position: Vec2::from(position), count: 8, limit: 40.0 };
+        StudyRequest::new(&presets::PRESETS[0].scenario(), study)
     }
 
     fn places(revision: Revision, places: std::ops::Range<usize>) -> StudyNews {
         #[expect(clippy::cast_precision_loss)]
         let answers = places.map(|i| (i, Answer::Growth(Ok(i as f64)))).collect();
-        StudyNews::Places { topic: Topic::Polar, revision, answers }
+        StudyNews::Places { topic: Topic::Directions, revision, answers }
     }
 
     fn begun(orders: &[Order]) -> Revision {
@@ -283,54 +283,57 @@ mod tests {
     #[test]
     fn a_study_begins_once_and_again_where_it_changes() {
         let mut studies = Studies::default();
-        let first = begun(&studies.want(vec![wish([0.0, 0.0])]));
-        assert!(studies.want(vec![wish([0.0, 0.0])]).is_empty() && studies.is_working());
+        let first = begun(&studies.want(vec![request([0.0, 0.0])]));
+        assert!(studies.want(vec![request([0.0, 0.0])]).is_empty() && studies.is_working());
         studies.take(places(first, 0..8));
-        studies.take(StudyNews::Finished { topic: Topic::Polar, revision: first });
-        assert!(studies.want(vec![wish([0.0, 0.0])]).is_empty() && !studies.is_working());
+        studies.take(StudyNews::Finished { topic: Topic::Directions, revision: first });
+        assert!(studies.want(vec![request([0.0, 0.0])]).is_empty() && !studies.is_working());
 
         // The old one stays until a quarter of the new one is there.
-        let second = begun(&studies.want(vec![wish([1.0, 0.0])]));
-        let shown = |studies: &Studies| studies.shown(Topic::Polar).map(|s| (s.current, s.known.answered()));
+        let second = begun(&studies.want(vec![request([1.0, 0.0])]));
+        let shown = |studies: &Studies| studies.shown(Topic::Directions).map(|s| (s.current, s.known.answered()));
         assert_eq!(shown(&studies), Some((false, 8)));
         studies.take(places(first, 0..8));
-        assert_eq!(studies.progress(Topic::Polar).done, 0, "news of an older study");
+        assert_eq!(studies.progress(Topic::Directions).done, 0, "news of an older study");
         studies.take(places(second, 0..2));
         assert_eq!(shown(&studies), Some((true, 2)));
 
         // Back again: nothing to compute.
-        assert_eq!(studies.want(vec![wish([0.0, 0.0])]), [Order::Cancel(Topic::Polar)]);
+        assert_eq!(studies.want(vec![request([0.0, 0.0])]), [Order::Cancel(Topic::Directions)]);
         assert_eq!(shown(&studies), Some((true, 8)));
-        assert_eq!(studies.progress(Topic::Polar).stage, Stage::Finished);
+        assert_eq!(studies.progress(Topic::Directions).stage, StudyStage::Finished);
     }
 
     #[test]
     fn a_stopped_study_waits_for_the_user_or_for_a_change() {
         let mut studies = Studies::default();
-        let first = begun(&studies.want(vec![wish([0.0, 0.0])]));
+        let first = begun(&studies.want(vec![request([0.0, 0.0])]));
         studies.take(places(first, 0..3));
-        assert_eq!(studies.stop(Topic::Polar), Some(Order::Cancel(Topic::Polar)));
-        assert_eq!(studies.stop(Topic::Polar), None);
-        assert!(studies.want(vec![wish([0.0, 0.0])]).is_empty());
+        assert_eq!(studies.stop(Topic::Directions), Some(Order::Cancel(Topic::Directions)));
+        assert_eq!(studies.stop(Topic::Directions), None);
+        assert!(studies.want(vec![request([0.0, 0.0])]).is_empty());
         studies.take(places(first, 3..4));
-        assert_eq!(studies.shown(Topic::Polar).map(|s| s.known.answered()), Some(3));
-        let resumed = begun(&Vec::from_iter(studies.resume(Topic::Polar)));
-        assert!(resumed > first && studies.resume(Topic::Polar).is_none());
-        assert_eq!(studies.shown(Topic::Polar).map(|s| s.known.answered()), Some(3), "what is known stays");
+        assert_eq!(studies.shown(Topic::Directions).map(|s| s.known.answered()), Some(3));
+        let resumed = begun(&Vec::from_iter(studies.resume(Topic::Directions)));
+        assert!(resumed > first && studies.resume(Topic::Directions).is_none());
+        assert_eq!(studies.shown(Topic::Directions).map(|s| s.known.answered()), Some(3), "what is known stays");
 
-        studies.stop(Topic::Polar);
-        assert!(begun(&studies.want(vec![wish([1.0, 0.0])])) > resumed);
+        studies.stop(Topic::Directions);
+        assert!(begun(&studies.want(vec![request([1.0, 0.0])])) > resumed);
     }
 
     #[test]
     fn nobody_looking_ends_it() {
         let mut studies = Studies::default();
-        begun(&studies.want(vec![wish([0.0, 0.0])]));
-        assert_eq!(studies.want(Vec::new()), [Order::Cancel(Topic::Polar)]);
+        begun(&studies.want(vec![request([0.0, 0.0])]));
+        assert_eq!(studies.want(Vec::new()), [Order::Cancel(Topic::Directions)]);
         assert!(studies.want(Vec::new()).is_empty() && !studies.is_working());
-        let again = begun(&studies.want(vec![wish([0.0, 0.0])]));
+        let again = begun(&studies.want(vec![request([0.0, 0.0])]));
         studies.take(StudyNews::Broken("no threads".into()));
-        assert_eq!((studies.broken(), studies.progress(Topic::Polar).stage), (Some("no threads"), Stage::Failed));
-        assert!(studies.want(vec![wish([0.0, 0.0])]).is_empty(), "not again and again after {again}");
+        assert_eq!(
+            (studies.broken(), studies.progress(Topic::Directions).stage),
+            (Some("no threads"), StudyStage::Failed)
+        );
+        assert!(studies.want(vec![request([0.0, 0.0])]).is_empty(), "not again and again after {again}");
     }
 }

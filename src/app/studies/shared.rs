@@ -100,17 +100,17 @@ mod tests {
     #[test]
     fn news_goes_to_the_owner_of_the_topics_study_alone() {
         let mut owners = Owners::default();
-        let study = Study::Polar { position: Vec2::zeros(), count: 8, limit: 40.0 };
+        let study = Study::Directions { position: Vec2::zeros(), count: 8, limit: 40.0 };
         let job = StudyJob { revision: 1, scenario: presets::PRESETS[0].scenario().to_json(), study };
         // Both count from one: their studies have the same revision.
-        let news = StudyNews::Finished { topic: Topic::Polar, revision: 1 };
+        let news = StudyNews::Finished { topic: Topic::Directions, revision: 1 };
         assert!(owners.of(&news).is_empty());
         assert!(owners.note(Owner::Present, &Order::Want(job.clone())));
         assert_eq!(owners.of(&news), [Owner::Present]);
-        assert!(!owners.note(Owner::Pinned, &Order::Cancel(Topic::Polar)), "the study of another owner");
+        assert!(!owners.note(Owner::Pinned, &Order::Cancel(Topic::Directions)), "the study of another owner");
         assert!(owners.note(Owner::Pinned, &Order::Want(job)));
         assert_eq!(owners.of(&news), [Owner::Pinned]);
-        assert!(owners.note(Owner::Pinned, &Order::Cancel(Topic::Polar)) && owners.of(&news).is_empty());
+        assert!(owners.note(Owner::Pinned, &Order::Cancel(Topic::Directions)) && owners.of(&news).is_empty());
         assert_eq!(owners.of(&StudyNews::Broken("none".into())), [Owner::Present, Owner::Pinned]);
     }
 }

@@ -13,10 +13,10 @@ use eframe::egui::{
 use crate::app::answers::CriticalState;
 use crate::app::facts::Facts;
 use crate::app::regions::Regions;
-use crate::app::state::{Movement, Plot, Session, Sheet, UiState};
+use crate::app::state::{Movement, Plot, Session, SheetTab, UiState};
 use crate::app::theme;
 use crate::compute::protocol::Which;
-use progress::{Seen, Stage, Task};
+use progress::{Seen, Task, TaskStage};
 
 pub use progress::Tour;
 
@@ -61,9 +61,9 @@ const OUTSIDE: &str =
 fn say(tour: &Tour) -> &'static str {
     let (_, asked, praise) = words(tour.task());
     match tour.stage() {
-        Stage::New | Stage::Asked => asked,
-        Stage::Halfway => OUTSIDE,
-        Stage::Done { .. } | Stage::Already => praise,
+        TaskStage::New | TaskStage::Asked => asked,
+        TaskStage::Halfway => OUTSIDE,
+        TaskStage::Done { .. } | TaskStage::Already => praise,
     }
 }
 
@@ -78,7 +78,7 @@ pub fn text(session: &Session) -> Option<String> {
 /// Sees whether the task on show is done, and draws it.
 pub fn ui(state: &mut UiState, session: &mut Session, context: &Context, regions: &Regions, facts: Facts<'_>) {
     let Some(mut tour) = session.tour.take() else { return };
-    if tour.stage() == Stage::New {
+    if tour.stage() == TaskStage::New {
         bring_into_view(tour.task(), state, session, regions);
     }
     let time = context.input(|input| input.time);
@@ -118,7 +118,7 @@ fn bring_into_view(task: Task, state: &mut UiState, session: &mut Session, regio
         Task::Drag | Task::Map => {}
         Task::Speed => state.playback.movement = Movement::LetGo,
         Task::Eigenvalue => {
-            state.sheet = Sheet::Plots;
+            state.sheet = SheetTab::Plots;
             state.plot = Plot::Eigenvalues;
             state.panels.right = true;
             session.present = false;

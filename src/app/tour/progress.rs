@@ -18,7 +18,7 @@ pub enum Task {
 
 /// What of a task is behind.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Stage {
+pub enum TaskStage {
     /// Nothing has been looked at yet.
     #[default]
     New,
@@ -55,7 +55,7 @@ pub struct Seen {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tour {
     index: usize,
-    stage: Stage,
+    stage: TaskStage,
 }
 
 impl Tour {
@@ -73,13 +73,13 @@ impl Tour {
     }
 
     /// What of it is behind.
-    pub fn stage(&self) -> Stage {
+    pub fn stage(&self) -> TaskStage {
         self.stage
     }
 
     /// Whether it is done.
     pub fn is_done(&self) -> bool {
-        matches!(self.stage, Stage::Done { .. } | Stage::Already)
+        matches!(self.stage, TaskStage::Done { .. } | TaskStage::Already)
     }
 
     /// Looks at the robot and the screen at a time in seconds, and goes on where a task has been praised long enough. Gives
@@ -93,15 +93,15 @@ impl Tour {
             Task::Eigenvalue => seen.chosen,
             Task::Map => seen.map,
         };
-        let done = Stage::Done { since: time };
+        let done = TaskStage::Done { since: time };
         self.stage = match self.stage {
-            Stage::New if holds => Stage::Already,
-            Stage::New | Stage::Asked if outside => Stage::Halfway,
-            Stage::New => Stage::Asked,
-            Stage::Asked if holds => done,
-            Stage::Halfway if seen.rests == Some(true) => done,
-            Stage::Done { .. } if seen.held => done,
-            Stage::Done { since } if time - since >= PRAISE => return self.go_on(),
+            TaskStage::New if holds => TaskStage::Already,
+            TaskStage::New | TaskStage::Asked if outside => TaskStage::Halfway,
+            TaskStage::New => TaskStage::Asked,
+            TaskStage::Asked if holds => done,
+            TaskStage::Halfway if seen.rests == Some(true) => done,
+            TaskStage::Done { .. } if seen.held => done,
+            TaskStage::Done { since } if time - since >= PRAISE => return self.go_on(),
             stage => stage,
         };
         true
@@ -110,7 +110,7 @@ impl Tour {
     /// In how many seconds the next task comes by itself, where it does.
     pub fn next_in(&self, time: f64) -> Option<f64> {
         match self.stage {
-            Stage::Done { since } => Some((since + PRAISE - time).max(0.0)),
+            TaskStage::Done { since } => Some((since + PRAISE - time).max(0.0)),
             _ => None,
         }
     }
@@ -120,14 +120,14 @@ impl Tour {
     pub fn go_on(&mut self) -> bool {
         let more = !self.is_last();
         if more {
-            *self = Self { index: self.index + 1, stage: Stage::New };
+            *self = Self { index: self.index + 1, stage: TaskStage::New };
         }
         more
     }
 
     /// Goes back to the task before.
     pub fn back(&mut self) {
-        *self = Self { index: self.index.saturating_sub(1), stage: Stage::New };
+        *self = Self { index: self.index.saturating_sub(1), stage: TaskStage::New };
     }
 
     /// Whether there is a task before this one.
@@ -159,13 +159,13 @@ mod tests {
     #[test]
     fn the_platform_has_to_leave_and_to_come_back() {
         let mut tour = Tour::default();
-        assert!(tour.look(CALM, 0.0) && tour.stage() == Stage::Asked);
+        assert!(tour.look(CALM, 0.0) && tour.stage() == TaskStage::Asked);
         // Being computed is neither outside nor inside.
         let unknown = Seen { rests: None, ..CALM };
-        assert!(tour.look(unknown, 0.1) && tour.stage() == Stage::Asked);
+        assert!(tour.look(unknown, 0.1) && tour.stage() == TaskStage::Asked);
         let outside = Seen { rests: Some(false), held: true, ..CALM };
-        assert!(tour.look(outside, 0.2) && tour.stage() == Stage::Halfway);
-        assert!(tour.look(unknown, 0.3) && tour.stage() == Stage::Halfway);
+        assert!(tour.look(outside, 0.2) && tour.stage() == TaskStage::Halfway);
+        assert!(tour.look(unknown, 0.3) && tour.stage() == TaskStage::Halfway);
         assert!(tour.look(Seen { held: true, ..CALM }, 0.4) && tour.is_done());
         // The praise lasts from the moment at which the platform is let go.
         assert!(tour.look(Seen { held: true, ..CALM }, 9.0) && tour.task() == Task::Drag);
@@ -178,7 +178,7 @@ mod tests {
     #[test]
     fn a_robot_that_begins_outside_has_only_to_come_back() {
         let mut tour = Tour::default();
-        assert!(tour.look(Seen { rests: Some(false), ..CALM }, 0.0) && tour.stage() == Stage::Halfway);
+        assert!(tour.look(Seen { rests: Some(false), ..CALM }, 0.0) && tour.stage() == TaskStage::Halfway);
         assert!(tour.look(CALM, 0.1) && tour.is_done());
     }
 
@@ -202,9 +202,9 @@ mod tests {
     fn what_is_so_already_waits_for_the_person() {
         let mut tour = at(Task::Map);
         let open = Seen { map: true, ..CALM };
-        assert!(tour.look(open, 0.0) && tour.stage() == Stage::Already && tour.is_done());
+        assert!(tour.look(open, 0.0) && tour.stage() == TaskStage::Already && tour.is_done());
         assert!(tour.look(open, 1e3) && tour.task() == Task::Map);
-        assert!(tour.look(CALM, 1e3) && tour.stage() == Stage::Already);
+        assert!(tour.look(CALM, 1e3) && tour.stage() == TaskStage::Already);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 
 use super::links;
-use super::pictures::{self, Form, Ink, Mark};
+use super::pictures::{self, Form, Ink, PicturePart};
 use super::word::Word;
 use crate::app::theme::{self, Tokens};
 
@@ -164,7 +164,7 @@ fn picture(ui: &mut Ui, word: Word) {
     let (ground, _) = ui.allocate_exact_size(Vec2::new(ui.available_width(), scale * height), Sense::hover());
     let tokens = theme::tokens(ui.visuals());
     ui.painter().rect_filled(ground, CornerRadius::same(6), tokens.panel);
-    let place = Place { origin: ground.center() - 0.5 * scale * Vec2::new(width, height), scale };
+    let place = PictureFrame { origin: ground.center() - 0.5 * scale * Vec2::new(width, height), scale };
     let font = FontId::proportional(scale * theme::CAPTION);
     for mark in pictures::of(word) {
         place.paint(ui.painter(), &mark, tokens, &font);
@@ -172,19 +172,19 @@ fn picture(ui: &mut Ui, word: Word) {
 }
 
 /// Where a picture's frame is on the screen.
-struct Place {
+struct PictureFrame {
     origin: Pos2,
     scale: f32,
 }
 
-impl Place {
+impl PictureFrame {
     fn at(&self, [x, y]: pictures::Point) -> Pos2 {
         self.origin + self.scale * Vec2::new(x, y)
     }
 
-    fn paint(&self, painter: &Painter, mark: &Mark, tokens: &Tokens, font: &FontId) {
+    fn paint(&self, painter: &Painter, mark: &PicturePart, tokens: &Tokens, font: &FontId) {
         match mark {
-            Mark::Line(points, form, ink) => {
+            PicturePart::Line(points, form, ink) => {
                 let points: Vec<Pos2> = points.iter().map(|point| self.at(*point)).collect();
                 let width = match form {
                     Form::Thin => 1.0,
@@ -198,7 +198,7 @@ impl Place {
                     painter.line(points, stroke);
                 }
             }
-            Mark::Arrow([from, to], ink) => {
+            PicturePart::Arrow([from, to], ink) => {
                 let (from, to) = (self.at(*from), self.at(*to));
                 let stroke = Stroke::new(1.5, colour(*ink, tokens));
                 let along = (to - from).normalized();
@@ -207,14 +207,14 @@ impl Place {
                     painter.line_segment([to, to + self.scale * (3.0 * across - 5.0 * along)], stroke);
                 }
             }
-            Mark::Dot(at, radius, ink) => {
+            PicturePart::Dot(at, radius, ink) => {
                 painter.circle_filled(self.at(*at), self.scale * radius, colour(*ink, tokens));
             }
-            Mark::Bar([low, high], ink) => {
+            PicturePart::Bar([low, high], ink) => {
                 let bar = Rect::from_two_pos(self.at(*low), self.at(*high));
                 painter.rect_filled(bar, CornerRadius::ZERO, colour(*ink, tokens));
             }
-            Mark::Text(at, part, text, ink) => {
+            PicturePart::Text(at, part, text, ink) => {
                 let galley = painter.layout_no_wrap((*text).into(), font.clone(), colour(*ink, tokens));
                 let corner = self.at(*at) - Vec2::new(part * galley.size().x, 0.5 * galley.size().y);
                 painter.galley(corner, galley, Color32::PLACEHOLDER);

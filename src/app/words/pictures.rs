@@ -40,7 +40,7 @@ pub enum Form {
 
 /// A part of a picture.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Mark {
+pub enum PicturePart {
     /// A line through points.
     Line(Vec<Point>, Form, Ink),
     /// An arrow.
@@ -68,7 +68,7 @@ const RIGHT: f32 = 208.0;
 const WINCH: f32 = 4.0;
 
 /// The picture of a word.
-pub fn of(word: Word) -> Vec<Mark> {
+pub fn of(word: Word) -> Vec<PicturePart> {
     match word {
         Word::CriticalSpeed => critical_speed(),
         Word::FrozenTime => frozen_time(),
@@ -97,79 +97,79 @@ fn curve(at: impl Fn(f32) -> Point) -> Vec<Point> {
     (0..=PIECES).map(|i| at(f32::from(i) / f32::from(PIECES))).collect()
 }
 
-fn line(points: impl Into<Vec<Point>>, ink: Ink) -> Mark {
-    Mark::Line(points.into(), Form::Solid, ink)
+fn line(points: impl Into<Vec<Point>>, ink: Ink) -> PicturePart {
+    PicturePart::Line(points.into(), Form::Solid, ink)
 }
 
-fn dashed(points: impl Into<Vec<Point>>, ink: Ink) -> Mark {
-    Mark::Line(points.into(), Form::Dashed, ink)
+fn dashed(points: impl Into<Vec<Point>>, ink: Ink) -> PicturePart {
+    PicturePart::Line(points.into(), Form::Dashed, ink)
 }
 
-fn thin(points: impl Into<Vec<Point>>) -> Mark {
-    Mark::Line(points.into(), Form::Thin, Ink::Frame)
+fn thin(points: impl Into<Vec<Point>>) -> PicturePart {
+    PicturePart::Line(points.into(), Form::Thin, Ink::Frame)
 }
 
-fn winch([x, y]: Point) -> Mark {
-    Mark::Bar([[x - WINCH, y - WINCH], [x + WINCH, y + WINCH]], Ink::Weak)
+fn winch([x, y]: Point) -> PicturePart {
+    PicturePart::Bar([[x - WINCH, y - WINCH], [x + WINCH, y + WINCH]], Ink::Weak)
 }
 
 /// A displacement over time, in points downward from the middle line, for 0 … 1.
-fn over_time(displacement: impl Fn(f32) -> f32, ink: Ink) -> Vec<Mark> {
+fn over_time(displacement: impl Fn(f32) -> f32, ink: Ink) -> Vec<PicturePart> {
     let middle = 44.0;
     vec![
         thin([[LEFT, middle], [RIGHT, middle]]),
         line(curve(|t| [LEFT + t * (RIGHT - LEFT), middle + displacement(t)]), ink),
-        Mark::Text([RIGHT, 82.0], ENDS, "time", Ink::Weak),
+        PicturePart::Text([RIGHT, 82.0], ENDS, "time", Ink::Weak),
     ]
 }
 
-fn critical_speed() -> Vec<Mark> {
+fn critical_speed() -> Vec<PicturePart> {
     let zero = 42.0;
     let growth = |t: f32| [LEFT + 190.0 * t, 66.0 - 48.0 * t * t];
     // Where 66 − 48 t² is the zero line.
     let crossing = growth(0.5_f32.sqrt());
     vec![
         thin([[LEFT, zero], [RIGHT, zero]]),
-        Mark::Text([LEFT, 52.0], BEGINS, "dies out", Ink::Stable),
-        Mark::Text([LEFT, 30.0], BEGINS, "grows", Ink::Critical),
+        PicturePart::Text([LEFT, 52.0], BEGINS, "dies out", Ink::Stable),
+        PicturePart::Text([LEFT, 30.0], BEGINS, "grows", Ink::Critical),
         line(curve(|t| growth(t * 0.5_f32.sqrt())), Ink::Stable),
         line(curve(|t| growth(0.5_f32.sqrt() + t * (1.0 - 0.5_f32.sqrt()))), Ink::Critical),
         dashed([crossing, [crossing[0], 74.0]], Ink::Critical),
-        Mark::Dot(crossing, 4.5, Ink::Critical),
-        Mark::Text([crossing[0] - 6.0, 81.0], MIDDLE, "critical", Ink::Critical),
-        Mark::Text([RIGHT, 81.0], ENDS, "speed", Ink::Weak),
+        PicturePart::Dot(crossing, 4.5, Ink::Critical),
+        PicturePart::Text([crossing[0] - 6.0, 81.0], MIDDLE, "critical", Ink::Critical),
+        PicturePart::Text([RIGHT, 81.0], ENDS, "speed", Ink::Weak),
     ]
 }
 
-fn frozen_time() -> Vec<Mark> {
+fn frozen_time() -> Vec<PicturePart> {
     let mut marks = Vec::new();
     for (y, end, ink) in [(16.0, 190.0, Ink::Frame), (44.0, 150.0, Ink::Accent), (72.0, 110.0, Ink::Frame)] {
-        marks.extend([winch([24.0, y]), line([[28.0, y], [end, y]], ink), Mark::Dot([end, y], 5.0, ink)]);
+        marks.extend([winch([24.0, y]), line([[28.0, y], [end, y]], ink), PicturePart::Dot([end, y], 5.0, ink)]);
     }
     let (low, high) = ([12.0, 31.0], [164.0, 57.0]);
     marks.push(dashed([low, [high[0], low[1]], high, [low[0], high[1]], low], Ink::Accent));
-    marks.push(Mark::Text([RIGHT, 44.0], ENDS, "now", Ink::Accent));
-    marks.push(Mark::Text([RIGHT, 72.0], ENDS, "later", Ink::Weak));
+    marks.push(PicturePart::Text([RIGHT, 44.0], ENDS, "now", Ink::Accent));
+    marks.push(PicturePart::Text([RIGHT, 72.0], ENDS, "later", Ink::Weak));
     marks
 }
 
-fn wave_limit() -> Vec<Mark> {
+fn wave_limit() -> Vec<PicturePart> {
     let y = 45.0;
     let wave = |t: f32| [76.0 + 72.0 * t, y - 9.0 * (TAU * t).sin() * (0.5 * TAU * t).sin()];
     vec![
-        Mark::Dot([20.0, y], 6.0, Ink::Accent),
+        PicturePart::Dot([20.0, y], 6.0, Ink::Accent),
         line([[26.0, y], [76.0, y]], Ink::Accent),
         line(curve(wave), Ink::Accent),
         line([[148.0, y], [196.0, y]], Ink::Accent),
         winch([200.0, y]),
-        Mark::Arrow([[148.0, 23.0], [76.0, 23.0]], Ink::Waves),
-        Mark::Text([112.0, 11.0], MIDDLE, "waves run", Ink::Waves),
-        Mark::Arrow([[76.0, 66.0], [148.0, 66.0]], Ink::Accent),
-        Mark::Text([112.0, 80.0], MIDDLE, "the winch reels", Ink::Accent),
+        PicturePart::Arrow([[148.0, 23.0], [76.0, 23.0]], Ink::Waves),
+        PicturePart::Text([112.0, 11.0], MIDDLE, "waves run", Ink::Waves),
+        PicturePart::Arrow([[76.0, 66.0], [148.0, 66.0]], Ink::Accent),
+        PicturePart::Text([112.0, 80.0], MIDDLE, "the winch reels", Ink::Accent),
     ]
 }
 
-fn gain() -> Vec<Mark> {
+fn gain() -> Vec<PicturePart> {
     let y = 38.0;
     let wave = |from: f32, size: f32| curve(move |t| [from + 62.0 * t, y - size * (2.0 * TAU * t).sin()]);
     vec![
@@ -177,14 +177,14 @@ fn gain() -> Vec<Mark> {
         line(wave(RIGHT - 62.0, 26.0), Ink::Critical),
         thin([[LEFT, y - 13.0], [LEFT, y + 13.0]]),
         thin([[RIGHT - 70.0, y - 26.0], [RIGHT - 70.0, y + 26.0]]),
-        Mark::Arrow([[92.0, y], [128.0, y]], Ink::Weak),
-        Mark::Text([LEFT + 38.0, 80.0], MIDDLE, "before", Ink::Accent),
-        Mark::Text([110.0, 24.0], MIDDLE, "move", Ink::Weak),
-        Mark::Text([RIGHT - 32.0, 80.0], MIDDLE, "after", Ink::Critical),
+        PicturePart::Arrow([[92.0, y], [128.0, y]], Ink::Weak),
+        PicturePart::Text([LEFT + 38.0, 80.0], MIDDLE, "before", Ink::Accent),
+        PicturePart::Text([110.0, 24.0], MIDDLE, "move", Ink::Weak),
+        PicturePart::Text([RIGHT - 32.0, 80.0], MIDDLE, "after", Ink::Critical),
     ]
 }
 
-fn growth_rate() -> Vec<Mark> {
+fn growth_rate() -> Vec<PicturePart> {
     let y = 38.0;
     let swing = |from: f32, size: fn(f32) -> f32| {
         let at = move |t: f32| [from + 92.0 * t, y - size(t) * (4.0 * TAU * t).cos()];
@@ -198,8 +198,8 @@ fn growth_rate() -> Vec<Mark> {
         dashed(its_bound, Ink::Stable),
         line(rising, Ink::Critical),
         dashed(her_bound, Ink::Critical),
-        Mark::Text([58.0, 80.0], MIDDLE, "below 0", Ink::Stable),
-        Mark::Text([162.0, 80.0], MIDDLE, "above 0", Ink::Critical),
+        PicturePart::Text([58.0, 80.0], MIDDLE, "below 0", Ink::Stable),
+        PicturePart::Text([162.0, 80.0], MIDDLE, "above 0", Ink::Critical),
     ]
 }
 
@@ -214,20 +214,20 @@ fn let_go(zeta: f32, t: f32) -> f32 {
     }
 }
 
-fn damping_ratio() -> Vec<Mark> {
+fn damping_ratio() -> Vec<PicturePart> {
     let y = 38.0;
     let cases = [(LEFT, 0.02, "2 %"), (80.0, 0.2, "20 %"), (148.0, 1.0, "100 %")];
     let draw = |(from, zeta, name): (f32, f32, &'static str)| {
         [
             thin([[from, y], [from + 60.0, y]]),
             line(curve(|t| [from + 60.0 * t, y - 28.0 * let_go(zeta, t)]), Ink::Accent),
-            Mark::Text([from + 30.0, 80.0], MIDDLE, name, Ink::Weak),
+            PicturePart::Text([from + 30.0, 80.0], MIDDLE, name, Ink::Weak),
         ]
     };
     cases.into_iter().flat_map(draw).collect()
 }
 
-fn mode_shape() -> Vec<Mark> {
+fn mode_shape() -> Vec<PicturePart> {
     let (from, to) = ([20.0, 20.0], [200.0, 50.0]);
     // A cable that sags, and its second mode, out and back.
     let at = |t: f32, out: f32| {
@@ -243,37 +243,38 @@ fn mode_shape() -> Vec<Mark> {
     ]
 }
 
-fn stiffness() -> Vec<Mark> {
+fn stiffness() -> Vec<PicturePart> {
     let y = 40.0;
     let draw = |x: f32, along: f32, name: &'static str| {
         [
             line([[x - 44.0, y], [x + 44.0, y]], Ink::Frame),
-            Mark::Arrow([[x, y], [x, y - 28.0]], Ink::Accent),
-            Mark::Arrow([[x, y], [x + along, y]], Ink::Accent),
-            Mark::Dot([x, y], 4.0, Ink::Accent),
-            Mark::Text([x, 60.0], MIDDLE, name, Ink::Weak),
+            PicturePart::Arrow([[x, y], [x, y - 28.0]], Ink::Accent),
+            PicturePart::Arrow([[x, y], [x + along, y]], Ink::Accent),
+            PicturePart::Dot([x, y], 4.0, Ink::Accent),
+            PicturePart::Text([x, 60.0], MIDDLE, name, Ink::Weak),
         ]
     };
-    let mut marks: Vec<Mark> = draw(58.0, 28.0, "secant").into_iter().chain(draw(162.0, 7.0, "tangent")).collect();
-    marks.push(Mark::Text([110.0, 80.0], MIDDLE, "how far equal forces move it", Ink::Accent));
+    let mut marks: Vec<PicturePart> =
+        draw(58.0, 28.0, "secant").into_iter().chain(draw(162.0, 7.0, "tangent")).collect();
+    marks.push(PicturePart::Text([110.0, 80.0], MIDDLE, "how far equal forces move it", Ink::Accent));
     marks
 }
 
-fn strain() -> Vec<Mark> {
+fn strain() -> Vec<PicturePart> {
     // Forces over EA for stretches λ from 1 to 1.5; 15/16 is Green's at the end.
     let at = |t: f32, force: fn(f32) -> f32| [LEFT + 130.0 * t, 74.0 - 64.0 * force(1.0 + 0.5 * t) / 0.9375];
     vec![
         thin([[LEFT, 8.0], [LEFT, 74.0], [160.0, 74.0]]),
         line(curve(|t| at(t, |stretch| 0.5 * (stretch * stretch * stretch - stretch))), Ink::Accent),
         line(curve(|t| at(t, |stretch| stretch - 1.0)), Ink::Waves),
-        Mark::Text([148.0, 12.0], BEGINS, "Green's", Ink::Accent),
-        Mark::Text([146.0, 44.0], BEGINS, "engineering", Ink::Waves),
-        Mark::Text([18.0, 12.0], BEGINS, "force", Ink::Weak),
-        Mark::Text([RIGHT, 80.0], ENDS, "stretch", Ink::Weak),
+        PicturePart::Text([148.0, 12.0], BEGINS, "Green's", Ink::Accent),
+        PicturePart::Text([146.0, 44.0], BEGINS, "engineering", Ink::Waves),
+        PicturePart::Text([18.0, 12.0], BEGINS, "force", Ink::Weak),
+        PicturePart::Text([RIGHT, 80.0], ENDS, "stretch", Ink::Weak),
     ]
 }
 
-fn holding() -> Vec<Mark> {
+fn holding() -> Vec<PicturePart> {
     let platform = [76.0, 44.0];
     let corners = [[16.0, 10.0], [136.0, 10.0], [16.0, 80.0], [136.0, 80.0]];
     let mut marks = Vec::new();
@@ -282,44 +283,44 @@ fn holding() -> Vec<Mark> {
         marks.push(if i < 2 { line(cable, Ink::Accent) } else { dashed(cable, Ink::Waves) });
         marks.push(winch(corner));
     }
-    marks.push(Mark::Dot(platform, 6.0, Ink::Accent));
-    marks.push(Mark::Text([RIGHT, 26.0], ENDS, "holding", Ink::Accent));
-    marks.push(Mark::Text([RIGHT, 66.0], ENDS, "stiffening", Ink::Waves));
+    marks.push(PicturePart::Dot(platform, 6.0, Ink::Accent));
+    marks.push(PicturePart::Text([RIGHT, 26.0], ENDS, "holding", Ink::Accent));
+    marks.push(PicturePart::Text([RIGHT, 66.0], ENDS, "stiffening", Ink::Waves));
     marks
 }
 
-fn unstretched_length() -> Vec<Mark> {
+fn unstretched_length() -> Vec<PicturePart> {
     let ends = |x: f32, y: f32| thin([[x, y - 8.0], [x, y + 8.0]]);
     vec![
         line([[20.0, 22.0], [130.0, 22.0]], Ink::Accent),
         ends(20.0, 22.0),
         ends(130.0, 22.0),
-        Mark::Text([142.0, 22.0], BEGINS, "L, no force", Ink::Accent),
+        PicturePart::Text([142.0, 22.0], BEGINS, "L, no force", Ink::Accent),
         line([[20.0, 62.0], [154.0, 62.0]], Ink::Waves),
         ends(20.0, 62.0),
         ends(154.0, 62.0),
-        Mark::Arrow([[158.0, 62.0], [192.0, 62.0]], Ink::Weak),
-        Mark::Text([87.0, 80.0], MIDDLE, "stretched by a force", Ink::Waves),
+        PicturePart::Arrow([[158.0, 62.0], [192.0, 62.0]], Ink::Weak),
+        PicturePart::Text([87.0, 80.0], MIDDLE, "stretched by a force", Ink::Waves),
     ]
 }
 
-fn reeling() -> Vec<Mark> {
+fn reeling() -> Vec<PicturePart> {
     let y = 38.0;
     vec![
         winch([20.0, y]),
         line([[24.0, y], [104.0, y]], Ink::Accent),
         line([[116.0, y], [196.0, y]], Ink::Accent),
         winch([200.0, y]),
-        Mark::Dot([110.0, y], 6.0, Ink::Accent),
-        Mark::Arrow([[110.0, 18.0], [146.0, 18.0]], Ink::Accent),
-        Mark::Arrow([[36.0, 58.0], [76.0, 58.0]], Ink::Weak),
-        Mark::Text([56.0, 76.0], MIDDLE, "paid out", Ink::Weak),
-        Mark::Arrow([[144.0, 58.0], [184.0, 58.0]], Ink::Weak),
-        Mark::Text([164.0, 76.0], MIDDLE, "reeled in", Ink::Weak),
+        PicturePart::Dot([110.0, y], 6.0, Ink::Accent),
+        PicturePart::Arrow([[110.0, 18.0], [146.0, 18.0]], Ink::Accent),
+        PicturePart::Arrow([[36.0, 58.0], [76.0, 58.0]], Ink::Weak),
+        PicturePart::Text([56.0, 76.0], MIDDLE, "paid out", Ink::Weak),
+        PicturePart::Arrow([[144.0, 58.0], [184.0, 58.0]], Ink::Weak),
+        PicturePart::Text([164.0, 76.0], MIDDLE, "reeled in", Ink::Weak),
     ]
 }
 
-fn slack() -> Vec<Mark> {
+fn slack() -> Vec<PicturePart> {
     let (winch_at, platform) = ([20.0, 14.0], [150.0, 34.0]);
     let straight = |t: f32| winch_at[1] + (platform[1] - winch_at[1]) * t;
     let across = |t: f32| winch_at[0] + (platform[0] - winch_at[0]) * t;
@@ -327,13 +328,13 @@ fn slack() -> Vec<Mark> {
         line([winch_at, platform], Ink::Accent),
         dashed(curve(|t| [across(t), straight(t) + 200.0 * t * (1.0 - t)]), Ink::Critical),
         winch(winch_at),
-        Mark::Dot(platform, 6.0, Ink::Accent),
-        Mark::Text([RIGHT, 14.0], ENDS, "taut: pulls", Ink::Accent),
-        Mark::Text([RIGHT, 66.0], ENDS, "slack", Ink::Critical),
+        PicturePart::Dot(platform, 6.0, Ink::Accent),
+        PicturePart::Text([RIGHT, 14.0], ENDS, "taut: pulls", Ink::Accent),
+        PicturePart::Text([RIGHT, 66.0], ENDS, "slack", Ink::Critical),
     ]
 }
 
-fn campbell() -> Vec<Mark> {
+fn campbell() -> Vec<PicturePart> {
     let mode = |from: f32, fall: f32| move |t: f32| [LEFT + 190.0 * t, from + fall * t * t];
     let lowest = mode(48.0, 14.0);
     let crossing = lowest(0.65);
@@ -343,37 +344,37 @@ fn campbell() -> Vec<Mark> {
         thin(curve(mode(36.0, 8.0))),
         thin(curve(|t| lowest(0.65 * t))),
         line(curve(|t| lowest(0.65 + 0.35 * t)), Ink::Critical),
-        Mark::Dot(crossing, 4.5, Ink::Critical),
-        Mark::Text([18.0, 9.0], BEGINS, "Hz", Ink::Weak),
-        Mark::Text([RIGHT - 8.0, 66.0], ENDS, "grows", Ink::Critical),
-        Mark::Text([RIGHT, 82.0], ENDS, "speed", Ink::Weak),
+        PicturePart::Dot(crossing, 4.5, Ink::Critical),
+        PicturePart::Text([18.0, 9.0], BEGINS, "Hz", Ink::Weak),
+        PicturePart::Text([RIGHT - 8.0, 66.0], ENDS, "grows", Ink::Critical),
+        PicturePart::Text([RIGHT, 82.0], ENDS, "speed", Ink::Weak),
     ]
 }
 
-fn mesh_error() -> Vec<Mark> {
+fn mesh_error() -> Vec<PicturePart> {
     let at = |t: f32| [20.0 + 180.0 * t, 14.0 + 200.0 * t * (1.0 - t)];
     let nodes = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(at);
     let mut marks = vec![dashed(curve(at), Ink::Waves), line(nodes, Ink::Accent)];
-    marks.extend(nodes.map(|node| Mark::Dot(node, 3.5, Ink::Accent)));
-    marks.push(Mark::Text([110.0, 44.0], MIDDLE, "three pieces", Ink::Accent));
-    marks.push(Mark::Text([110.0, 80.0], MIDDLE, "smooth cable", Ink::Waves));
+    marks.extend(nodes.map(|node| PicturePart::Dot(node, 3.5, Ink::Accent)));
+    marks.push(PicturePart::Text([110.0, 44.0], MIDDLE, "three pieces", Ink::Accent));
+    marks.push(PicturePart::Text([110.0, 80.0], MIDDLE, "smooth cable", Ink::Waves));
     marks
 }
 
-fn sensitivity() -> Vec<Mark> {
+fn sensitivity() -> Vec<PicturePart> {
     let zero: f32 = 110.0;
     let bar = |y: f32, length: f32| {
         let (from, to) = (zero.min(zero + length), zero.max(zero + length));
         let ink = if length > 0.0 { Ink::Accent } else { Ink::Critical };
-        Mark::Bar([[from, y - 7.0], [to, y + 7.0]], ink)
+        PicturePart::Bar([[from, y - 7.0], [to, y + 7.0]], ink)
     };
     vec![
         bar(14.0, 80.0),
         bar(35.0, -56.0),
         bar(56.0, 24.0),
         thin([[zero, 4.0], [zero, 68.0]]),
-        Mark::Text([zero - 12.0, 80.0], ENDS, "lowers", Ink::Critical),
-        Mark::Text([zero + 12.0, 80.0], BEGINS, "raises it", Ink::Accent),
+        PicturePart::Text([zero - 12.0, 80.0], ENDS, "lowers", Ink::Critical),
+        PicturePart::Text([zero + 12.0, 80.0], BEGINS, "raises it", Ink::Accent),
     ]
 }
 
@@ -382,7 +383,7 @@ mod tests {
     use super::*;
 
     /// The box around a mark. A caption's letters are 12 points high and at most 6.4 wide on average.
-    fn bounds(mark: &Mark) -> [Point; 2] {
+    fn bounds(mark: &PicturePart) -> [Point; 2] {
         let around = |points: &[Point], margin: f32| {
             let along = |i: usize| points.iter().map(move |point| point[i]);
             let low = [0, 1].map(|i| along(i).fold(f32::INFINITY, f32::min) - margin);
@@ -390,11 +391,11 @@ mod tests {
             [low, high]
         };
         match mark {
-            Mark::Line(points, ..) => around(points, 1.0),
-            Mark::Arrow(points, _) => around(points, 4.0),
-            Mark::Dot(at, radius, _) => around(&[*at], *radius),
-            Mark::Bar(corners, _) => around(corners, 0.0),
-            Mark::Text([x, y], part, text, _) => {
+            PicturePart::Line(points, ..) => around(points, 1.0),
+            PicturePart::Arrow(points, _) => around(points, 4.0),
+            PicturePart::Dot(at, radius, _) => around(&[*at], *radius),
+            PicturePart::Bar(corners, _) => around(corners, 0.0),
+            PicturePart::Text([x, y], part, text, _) => {
                 let width = 6.4 * f32::from(u8::try_from(text.chars().count()).expect("short"));
                 let left = x - part * width;
                 [[left, y - 7.0], [left + width, y + 7.0]]
@@ -416,7 +417,7 @@ mod tests {
     #[test]
     fn no_two_texts_of_a_picture_lie_on_each_other() {
         for word in Word::ALL {
-            let texts: Vec<_> = of(word).into_iter().filter(|mark| matches!(mark, Mark::Text(..))).collect();
+            let texts: Vec<_> = of(word).into_iter().filter(|mark| matches!(mark, PicturePart::Text(..))).collect();
             for (i, one) in texts.iter().enumerate() {
                 for other in &texts[..i] {
                     let ([low, high], [low2, high2]) = (bounds(one), bounds(other));

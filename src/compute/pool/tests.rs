@@ -207,7 +207,7 @@ fn batches_are_as_long_as_their_time_and_what_is_left_over_comes_first() {
 fn a_maps_first_picture_comes_first_then_small_studies_then_its_details() {
     let mut rehearsal = Rehearsal::new(1);
     let (position, direction) = (Vec2::zeros(), Vec2::x());
-    let small = [line(30), Study::Speeds { position, direction, to: 10.0, count: 30 }];
+    let small = [line(30), Study::Campbell { position, direction, to: 10.0, count: 30 }];
     rehearsal.scheduler.want(job(1, growth_map(41, 21)));
     for study in small {
         rehearsal.scheduler.want(job(1, study));
@@ -297,7 +297,7 @@ fn a_silent_worker_is_lost_after_some_seconds_and_a_slow_place_gets_more() {
 fn heavy_places_get_more_time_and_time_asleep_does_not_count() {
     let mut rehearsal = Rehearsal::new(1);
     let (position, direction) = (Vec2::zeros(), Vec2::x());
-    rehearsal.scheduler.want(job(1, Study::Elements { position, direction, counts: vec![40], limit: 40.0 }));
+    rehearsal.scheduler.want(job(1, Study::Mesh { position, direction, counts: vec![40], limit: 40.0 }));
     rehearsal.go_on();
     for _ in 0..10 {
         rehearsal.pass(4.0);

@@ -8,7 +8,7 @@ use crate::study::Grid;
 
 /// A line through the cells of a grid.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Line {
+pub struct Polyline {
     /// Its corners in m, each on an edge of the grid.
     pub points: Vec<[f64; 2]>,
     /// Whether the last corner is joined to the first.
@@ -27,7 +27,7 @@ pub fn trace(
     inside: impl Fn(usize) -> Option<bool>,
     crossing: impl Fn(Edge) -> Option<Vec2>,
     middle: impl Fn([usize; 4]) -> bool,
-) -> Vec<Line> {
+) -> Vec<Polyline> {
     let mut pieces: Vec<[Edge; 2]> = Vec::new();
     for corners in cells(grid) {
         let [Some(a), Some(b), Some(c), Some(d)] = corners.map(&inside) else { continue };
@@ -50,7 +50,7 @@ pub fn trace(
     }
     let placed = |(edges, closed): (Vec<Edge>, bool)| {
         let points = edges.into_iter().filter_map(&crossing).map(<[f64; 2]>::from).collect();
-        Line { points, closed }
+        Polyline { points, closed }
     };
     joined(&pieces).into_iter().map(placed).collect()
 }
@@ -140,7 +140,7 @@ impl Field {
     }
 
     /// Where the quantity is `level`, linearly between points. Cells with a corner that has no value have no line.
-    pub fn contour(&self, level: f64) -> Vec<Line> {
+    pub fn contour(&self, level: f64) -> Vec<Polyline> {
         let value = |i: usize| self.values.get(i).copied().flatten();
         let crossing = |[from, to]: Edge| {
             let (low, high) = (value(from)?, value(to)?);

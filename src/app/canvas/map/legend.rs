@@ -63,29 +63,36 @@ pub fn round_range([low, high]: [f64; 2], unit: f64, symmetric: bool) -> [f64; 2
     covering.into_iter().next().unwrap_or([low / unit, high / unit])
 }
 
-/// Shows caption, bar and entries of a picture.
-pub fn ui(ui: &mut Ui, picture: &Picture, current: bool, facts: Facts<'_>) {
+/// Whether its values are numbers, which have a bar of colours.
+fn has_bar(quantity: MapQuantity) -> bool {
+    !matches!(quantity, MapQuantity::Kind | MapQuantity::Cable)
+}
+
+/// Shows the caption of `quantity` and the bar of a picture's colours. The bar has its room before there is a picture, so
+/// that nothing below it moves when one comes.
+pub fn ui(ui: &mut Ui, quantity: MapQuantity, picture: Option<&Picture>, current: bool, facts: Facts<'_>) {
     let tokens = theme::tokens(ui.visuals());
-    let title = caption(picture.quantity, facts);
-    let title = if current { title } else { format!("{title}, earlier state") };
+    let quantity = picture.map_or(quantity, |picture| picture.quantity);
+    let title = caption(quantity, facts);
+    let title = if current || picture.is_none() { title } else { format!("{title}, earlier state") };
     let text = eframe::egui::RichText::new(&title).size(theme::CAPTION);
     ui.label(text.color(if current { tokens.text } else { tokens.weak }));
-    if let Some(range) = picture.range {
-        let (unit, name) = unit(picture.quantity, facts);
-        let range = range.map(|end| end * unit);
-        let room = Vec2::new((BAR.x + 2.0 * END).min(ui.available_width()), BAR.y + 3.0 + theme::CAPTION + 2.0);
-        let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
-        let labels = ticks(range);
-        let ends = [labels.first(), labels.last()].map(|label| label.map_or("", |(_, label)| label));
-        let spoken = format!("Colours from {} to {} {name}", ends[0], ends[1]);
-        response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &spoken));
-        let bar = Rect::from_min_size(rect.min + Vec2::new(END, 0.0), Vec2::new(rect.width() - 2.0 * END, BAR.y));
-        scale(ui.painter(), ui.visuals(), bar, picture, &labels);
-        if picture.beyond() != [false; 2] {
-            response.explained("Some values lie beyond an end of the colours. They have the colour of that end.");
-        }
+    if !has_bar(quantity) {
+        return;
     }
-    entries(ui, picture);
+    let room = Vec2::new((BAR.x + 2.0 * END).min(ui.available_width()), BAR.y + 3.0 + theme::CAPTION + 2.0);
+    let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
+    let Some((picture, range)) = picture.and_then(|picture| Some((picture, picture.range?))) else { return };
+    let (unit, name) = unit(quantity, facts);
+    let labels = ticks(range.map(|end| end * unit));
+    let ends = [labels.first(), labels.last()].map(|label| label.map_or("", |(_, label)| label));
+    let spoken = format!("Colours from {} to {} {name}", ends[0], ends[1]);
+    response.widget_info(|| WidgetInfo::labeled(Role::Image, true, &spoken));
+    let bar = Rect::from_min_size(rect.min + Vec2::new(END, 0.0), Vec2::new(rect.width() - 2.0 * END, BAR.y));
+    scale(ui.painter(), ui.visuals(), bar, picture, &labels);
+    if picture.beyond() != [false; 2] {
+        response.explained("Some values lie beyond an end of the colours. They have the colour of that end.");
+    }
 }
 
 /// The colour bar with its ticks.
@@ -139,7 +146,7 @@ fn ticks([low, high]: [f64; 2]) -> Vec<(f32, String)> {
 }
 
 /// What classes, patterns and signs mean, as far as there are any.
-fn entries(ui: &mut Ui, picture: &Picture) {
+pub fn entries(ui: &mut Ui, picture: &Picture) {
     ui.horizontal_wrapped(|ui| {
         for class in (0..CLASSES).filter(|&class| picture.has(Cell::Class(class))) {
             let letter = name_of(picture.quantity, class);

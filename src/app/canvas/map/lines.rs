@@ -2,7 +2,7 @@
 
 use eframe::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Stroke, Vec2, Visuals};
 
-use super::contours::{Field, Line};
+use super::contours::{Field, Polyline};
 use super::paint::polyline;
 use super::picture::Picture;
 use crate::app::canvas::View;
@@ -46,13 +46,13 @@ pub struct Lines {
 struct Contour {
     level: f64,
     text: String,
-    lines: Vec<Line>,
+    lines: Vec<Polyline>,
     /// By line: the corner that has the label, so that it stays where it is.
     labels: Vec<Option<usize>>,
 }
 
 impl Contour {
-    fn new(level: f64, text: String, lines: Vec<Line>) -> Self {
+    fn new(level: f64, text: String, lines: Vec<Polyline>) -> Self {
         Self { level, text, labels: vec![None; lines.len()], lines }
     }
 }

@@ -25,7 +25,7 @@ use crate::app::meaning::Explain as _;
 use crate::app::round::roundest;
 use crate::app::settings::Settings;
 use crate::app::state::{MapQuantity, MapView};
-use crate::app::studies::{Known, Shown, Stage, Studies, Wish};
+use crate::app::studies::{Shown, Studies, StudyRequest, StudyResults, StudyStage};
 use crate::app::{digits, series, theme};
 use crate::compute::protocol::{Revision, Topic};
 use crate::robot::Vec2 as WorldVec2;
@@ -102,7 +102,9 @@ impl Layer {
         };
         self.current = current;
         // The map's robot would have the same border.
-        let same = |border: &Known| Wish::new(&known.wish.scenario, border.wish.study.clone()) == border.wish;
+        let same = |border: &StudyResults| {
+            StudyRequest::new(&known.request.scenario, border.request.study.clone()) == border.request
+        };
         self.bounded = border.is_some_and(|border| same(border.known));
         let (unit, _) = legend::unit(quantity, facts);
         let key = (known.version, quantity, ui.visuals().dark_mode, self.bounds().is_some(), unit.to_bits());
@@ -131,7 +133,7 @@ impl Layer {
     /// Whether it is time for another picture: while answers come in, not in every frame.
     fn is_due(&mut self, ui: &Ui, studies: &Studies, key: Key) -> bool {
         let now = ui.input(|input| input.time);
-        let more_to_come = studies.progress(Topic::Map).stage == Stage::Working;
+        let more_to_come = studies.progress(Topic::Map).stage == StudyStage::Working;
         let same_look = self.key.is_some_and(|before| (before.1, before.2, before.4) == (key.1, key.2, key.4));
         if more_to_come && same_look && now < self.made_at + RENEWAL {
             ui.ctx().request_repaint_after(Duration::from_secs_f64(RENEWAL));
@@ -183,8 +185,8 @@ impl Layer {
     }
 }
 
-fn asks_growth(known: &Known) -> bool {
-    matches!(known.wish.study, Study::Map { mapped: Mapped::Growth { .. }, .. })
+fn asks_growth(known: &StudyResults) -> bool {
+    matches!(known.request.study, Study::Map { mapped: Mapped::Growth { .. }, .. })
 }
 
 /// Legend, quantity, direction, ways to the lowest and the highest place, and progress, in `corner` of the canvas; nothing
@@ -207,13 +209,19 @@ pub fn controls(
     let room = UiBuilder::new().max_rect(corner).layout(layout).sense(Sense::CLICK);
     let inner = ui.scope_builder(room, |ui| {
         ui.spacing_mut().item_spacing = Vec2::new(8.0, 6.0);
-        match &layer.picture {
-            Some(picture) => legend::ui(ui, picture, layer.current, facts),
-            None => _ = ui.label(legend::caption(map.quantity, facts)),
-        }
+        let picture = layer.picture.as_ref();
+        legend::ui(ui, map.quantity, picture, layer.current, facts);
         choices(map, ui, facts.document.scenario.motion.direction);
-        if let Some(picture) = &layer.picture {
-            ui.add_enabled_ui(layer.current, |ui| extremes(picture, ui, facts, commands));
+        // In one row, since what is under the pointer is not to move when a study begins or ends.
+        if matches!(facts.studies.progress(Topic::Map).stage, StudyStage::Idle | StudyStage::Finished) {
+            if let Some(picture) = picture {
+                ui.add_enabled_ui(layer.current, |ui| extremes(picture, ui, facts, commands));
+            }
+        } else {
+            ui.horizontal(|ui| progress(ui, Topic::Map, facts.studies, commands));
+        }
+        if let Some(picture) = picture {
+            legend::entries(ui, picture);
         }
         if layer.colours.could_fit() && layer.picture.as_ref().is_some_and(|picture| picture.range.is_some()) {
             let text =
@@ -222,9 +230,6 @@ pub fn controls(
                 layer.colours.fit();
                 layer.key = None;
             }
-        }
-        if !matches!(facts.studies.progress(Topic::Map).stage, Stage::Idle | Stage::Finished) {
-            ui.horizontal(|ui| progress(ui, Topic::Map, facts.studies, commands));
         }
     });
     let colour = theme::tokens(ui.visuals()).canvas.gamma_multiply(0.92);
@@ -325,7 +330,7 @@ pub fn progress(ui: &mut Ui, topic: Topic, studies: &Studies, commands: &mut Vec
     #[expect(clippy::cast_possible_truncation)] // A part of one.
     let part = (progress.done as f64 / progress.total.max(1) as f64) as f32;
     match progress.stage {
-        Stage::Working => {
+        StudyStage::Working => {
             if ui.button("Cancel").explained("Stops this study; what is known of it stays").clicked() {
                 commands.push(Command::StopStudy(topic));
             }
@@ -337,19 +342,19 @@ pub fn progress(ui: &mut Ui, topic: Topic, studies: &Studies, commands: &mut Vec
                 response.explained("Points computed so far");
             });
         }
-        Stage::Stopped => {
+        StudyStage::Stopped => {
             if ui.button("Resume").clicked() {
                 commands.push(Command::ResumeStudy(topic));
             }
             ui.weak("Stopped");
         }
-        Stage::Failed => {
+        StudyStage::Failed => {
             if ui.button("Try again").clicked() {
                 commands.push(Command::ResumeStudy(topic));
             }
             ui.weak(studies.broken().unwrap_or("This could not be computed."));
         }
-        Stage::Idle | Stage::Finished => {}
+        StudyStage::Idle | StudyStage::Finished => {}
     }
 }
 
@@ -364,7 +369,7 @@ pub fn point(
 ) {
     let Facts { studies, settings, .. } = facts;
     let Some(Shown { known, current }) = studies.shown(Topic::Map) else { return };
-    let Study::Map { grid, .. } = &known.wish.study else { return };
+    let Study::Map { grid, .. } = &known.request.study else { return };
     let pointer = background.hover_pos().filter(|_| background.hovered() && !background.dragged());
     if let Some(pointer) = pointer
         && let Some(nearest) = picture::nearest(grid, view.pos_in_world(pointer).into())
@@ -390,7 +395,7 @@ pub fn point(
 }
 
 /// What is known at one of a map's points, in words.
-fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings, share: Option<f64>) -> String {
+fn reading(known: &StudyResults, index: usize, at: WorldVec2, settings: Settings, share: Option<f64>) -> String {
     let place = format!("At ({:.2}, {:.2}) m", at.x, at.y);
     let said = match known.places.get(index).and_then(Option::as_ref) {
         None => "not computed yet".into(),
@@ -411,7 +416,13 @@ fn reading(known: &Known, index: usize, at: WorldVec2, settings: Settings, share
 }
 
 /// What a search for the critical speed has found, in words.
-fn found(known: &Known, direction: WorldVec2, verdict: &Verdict, settings: Settings, share: Option<f64>) -> String {
+fn found(
+    known: &StudyResults,
+    direction: WorldVec2,
+    verdict: &Verdict,
+    settings: Settings,
+    share: Option<f64>,
+) -> String {
     match verdict {
         Verdict::Infeasible => NO_EQUILIBRIUM.into(),
         Verdict::Unknown => NOT_COMPUTED.into(),
@@ -425,7 +436,7 @@ fn found(known: &Known, direction: WorldVec2, verdict: &Verdict, settings: Setti
                 }
                 Instability::Divergence => "divergence".into(),
             };
-            let worst = match known.wish.study {
+            let worst = match known.request.study {
                 Study::Map { directions: Directions::Worst(_), .. } => {
                     format!("\nin the direction {:.1}°", series::degrees(direction.into()))
                 }

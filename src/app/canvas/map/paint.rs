@@ -7,7 +7,7 @@ use eframe::egui::{
     Vec2, Visuals,
 };
 
-use super::contours::Line;
+use super::contours::Polyline;
 use super::picture::{Cell, Picture};
 use super::region::Region;
 use crate::app::canvas::View;
@@ -126,7 +126,7 @@ pub fn outside(painter: &Painter, visuals: &Visuals, view: &View, region: &Regio
 }
 
 /// Draws a line through the world.
-pub fn polyline(painter: &Painter, view: &View, line: &Line, stroke: Stroke) {
+pub fn polyline(painter: &Painter, view: &View, line: &Polyline, stroke: Stroke) {
     let points = line.points.iter().map(|&point| view.pos_in_ui(point)).collect();
     painter.add(if line.closed { Shape::closed_line(points, stroke) } else { Shape::line(points, stroke) });
 }

@@ -2,7 +2,7 @@
 
 use super::contours::Field;
 use crate::app::state::MapQuantity;
-use crate::app::studies::Known;
+use crate::app::studies::StudyResults;
 use crate::robot::{BoundingBox, Vec2};
 use crate::stability::{Critical, Instability};
 use crate::study::{Answer, Grid, NoEigenvalues, Study, Verdict};
@@ -59,8 +59,8 @@ pub struct Picture {
 
 impl Picture {
     /// The picture of `quantity`, where `known` is a map.
-    pub fn new(known: &Known, quantity: MapQuantity) -> Option<Self> {
-        let Study::Map { grid, .. } = known.wish.study else { return None };
+    pub fn new(known: &StudyResults, quantity: MapQuantity) -> Option<Self> {
+        let Study::Map { grid, .. } = known.request.study else { return None };
         let own: Vec<Cell> = known.places.iter().map(|answer| cell(answer.as_ref(), quantity)).collect();
         let cells: Vec<Cell> = (0..own.len()).map(|index| own[coarser(&grid, index, &own)]).collect();
         let found = cells.iter().fold(None, |range: Option<[f64; 2]>, cell| match cell {
@@ -334,20 +334,20 @@ fn neighbours(grid: &Grid, pos_in_world: Vec2) -> [(usize, usize, f64); 2] {
 mod tests {
     use super::*;
     use crate::app::settings::Settings;
-    use crate::app::studies::Wish;
+    use crate::app::studies::StudyRequest;
     use crate::scenario::presets;
     use crate::study::{Directions, Mapped};
     use nalgebra::Complex;
     use std::f64::consts::TAU;
 
-    fn known(answer: impl Fn(usize, usize) -> Option<Answer>) -> Known {
+    fn known(answer: impl Fn(usize, usize) -> Option<Answer>) -> StudyResults {
         let scenario = presets::PRESETS[0].scenario();
         let (robot, motion) = scenario.to_robot().expect("physical");
         let directions = Directions::One(motion.direction());
         let study = Study::Map { grid: Grid::of(&robot, 41, 21), directions, mapped: Mapped::Critical { limit: 40.0 } };
-        let wish = Wish::new(&scenario, study);
+        let request = StudyRequest::new(&scenario, study);
         let places = (0..41 * 21).map(|index| answer(index % 41, index / 41)).collect();
-        Known { wish, places, version: (1, 1) }
+        StudyResults { request, places, version: (1, 1) }
     }
 
     fn critical(speed: f64, cable: usize) -> Answer {

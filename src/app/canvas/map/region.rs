@@ -1,8 +1,8 @@
 //! The feasible region as it is drawn: its border in long lines, and what lies outside of it in convex pieces. World
 //! coordinates, no colours.
 
-use super::contours::{Line, cells, trace};
-use crate::app::studies::Known;
+use super::contours::{Polyline, cells, trace};
+use crate::app::studies::StudyResults;
 use crate::robot::Vec2;
 use crate::study::{Answer, Grid, Strip, Study};
 
@@ -10,15 +10,15 @@ use crate::study::{Answer, Grid, Strip, Study};
 #[derive(Clone, Debug)]
 pub struct Region {
     /// Its border.
-    pub border: Vec<Line>,
+    pub border: Vec<Polyline>,
     /// Convex pieces that cover what lies outside of it; corners in m, one after the other round the piece.
     pub outside: Vec<Vec<[f64; 2]>>,
 }
 
 impl Region {
     /// The region, where `known` is a border that is known everywhere.
-    pub fn new(known: &Known) -> Option<Self> {
-        let Study::Border { grid } = &known.wish.study else { return None };
+    pub fn new(known: &StudyResults) -> Option<Self> {
+        let Study::Border { grid } = &known.request.study else { return None };
         let strips: Option<Vec<&Strip>> = known
             .places
             .iter()
@@ -111,11 +111,11 @@ impl Found<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::studies::Wish;
+    use crate::app::studies::StudyRequest;
     use crate::scenario::presets;
 
     /// The border of a region that is told by the sign of `height`, which is linear along each edge.
-    fn known(grid: Grid, height: impl Fn(Vec2) -> f64) -> Known {
+    fn known(grid: Grid, height: impl Fn(Vec2) -> f64) -> StudyResults {
         let at = |row: usize, column: usize| grid.position(row * grid.nx + column);
         let crossing = |from: Vec2, to: Vec2| {
             let [low, high] = [from, to].map(&height);
@@ -132,8 +132,8 @@ mod tests {
                 .collect(),
         };
         let places = (0..grid.ny).map(|row| Some(Answer::Border(strip(row)))).collect();
-        let wish = Wish::new(&presets::PRESETS[0].scenario(), Study::Border { grid });
-        Known { wish, places, version: (1, 1) }
+        let request = StudyRequest::new(&presets::PRESETS[0].scenario(), Study::Border { grid });
+        StudyResults { request, places, version: (1, 1) }
     }
 
     fn area(piece: &[[f64; 2]]) -> f64 {

@@ -6,9 +6,9 @@ use eframe::egui::{Pos2, Rect, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 use nalgebra::Complex;
 
 use super::axis::signed;
-use super::chart::{Chart, Dash, Mark, Titles, inner};
-use super::common::{self, Place};
-use super::range::{self, Range};
+use super::chart::{Chart, Dash, Symbol, Titles, inner};
+use super::common::{self, PlotPlace};
+use super::range::{self, VisibleRange};
 use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
@@ -29,7 +29,7 @@ pub const MEANING: &str = "Every line is a mode of the robot at this pose. Above
 const LEAST: f32 = 240.0;
 
 /// Draws the two plots; a click sets the speed.
-pub fn ui(place: Place, highest: &mut f64, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(place: PlotPlace, highest: &mut f64, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     let Facts { joined, settings, .. } = facts;
     let Some(Shown { known, current }) = common::study(Topic::Campbell, facts) else {
         common::say(ui, "No answer yet.");
@@ -50,7 +50,7 @@ pub fn ui(place: Place, highest: &mut f64, ui: &mut Ui, facts: Facts<'_>, comman
     // Whoever turns the range wants to see it.
     if drawn.to_bits() != highest.to_bits() {
         for id in ids {
-            Range::Fit.show(ui.ctx(), id);
+            VisibleRange::Fit.show(ui.ctx(), id);
         }
     }
     let pieces = joined.pieces();
@@ -83,21 +83,21 @@ pub fn ui(place: Place, highest: &mut f64, ui: &mut Ui, facts: Facts<'_>, comman
         },
     ];
     // Both have one horizontal axis, whichever was turned.
-    let before = ids.map(|id| Range::of(ui.ctx(), id));
-    if before[0] == Range::Fit && before[1] != Range::Fit {
-        Range::Fit.show(ui.ctx(), ids[1]);
+    let before = ids.map(|id| VisibleRange::of(ui.ctx(), id));
+    if before[0] == VisibleRange::Fit && before[1] != VisibleRange::Fit {
+        VisibleRange::Fit.show(ui.ctx(), ids[1]);
     }
     for (i, diagram) in plots.iter().enumerate() {
-        let range = Range::of(ui.ctx(), ids[i]);
+        let range = VisibleRange::of(ui.ctx(), ids[i]);
         diagram.ui(place, ids[i], ui, facts, current, commands);
-        let after = Range::of(ui.ctx(), ids[i]);
+        let after = VisibleRange::of(ui.ctx(), ids[i]);
         if after == range {
             continue;
         }
         let (other, fit) = (1 - i, plots[1 - i].fit);
         let [x, _] = after.bounds(diagram.fit, diagram.fit);
-        let [_, y] = Range::of(ui.ctx(), ids[other]).bounds(fit, fit);
-        let linked = if after == Range::Fit { Range::Fit } else { Range::Own([x, y]) };
+        let [_, y] = VisibleRange::of(ui.ctx(), ids[other]).bounds(fit, fit);
+        let linked = if after == VisibleRange::Fit { VisibleRange::Fit } else { VisibleRange::Own([x, y]) };
         linked.show(ui.ctx(), ids[other]);
     }
 }
@@ -119,7 +119,7 @@ impl Diagram<'_> {
 
     fn ui(
         &self,
-        place: Place,
+        place: PlotPlace,
         id: eframe::egui::Id,
         ui: &mut Ui,
         facts: Facts<'_>,
@@ -130,7 +130,7 @@ impl Diagram<'_> {
         let (pieces, growth) = (joined.pieces(), self.hertz.is_none());
         let response = ui.allocate_rect(self.rect, Sense::click_and_drag());
         let rect = inner(ui, self.rect, self.titles);
-        let axes = Chart::axes(rect, Range::of(ui.ctx(), id).bounds(self.fit, self.fit));
+        let axes = Chart::axes(rect, VisibleRange::of(ui.ctx(), id).bounds(self.fit, self.fit));
         let mut chart = Chart::new(ui, self.rect, rect, axes);
         let tokens = chart.tokens;
         let shade = |colour| if current { colour } else { tokens.mute };
@@ -149,7 +149,7 @@ impl Diagram<'_> {
                 chart.curve(&points, Stroke::new(3.0, shade(tokens.critical)), Dash::Solid);
                 // Few enough to be seen one by one.
                 for &point in points.iter().skip(1).step_by(4) {
-                    chart.mark(chart.pos(point), Mark::Triangle, 4.0, shade(tokens.critical));
+                    chart.mark(chart.pos(point), Symbol::Triangle, 4.0, shade(tokens.critical));
                 }
             } else {
                 chart.curve(&points, Stroke::new(1.2, shade(tokens.stable)), Dash::Solid);
@@ -193,7 +193,7 @@ impl Diagram<'_> {
             if let Some((at, speed, eigenvalue)) = nearest {
                 let value = signed(&digits::certain(self.value(eigenvalue), None));
                 let how = if eigenvalue.re > 0.0 { "grows" } else { "dies out" };
-                chart.mark(at, Mark::Ring, 5.0, tokens.text);
+                chart.mark(at, Symbol::Ring, 5.0, tokens.text);
                 chart.card(at, &[format!("{value} {}", self.unit), format!("at {speed:.2} m/s, {how}")]);
             }
         }

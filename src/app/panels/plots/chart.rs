@@ -212,20 +212,20 @@ impl Chart {
     }
 
     /// A dot that is filled, a triangle that points up, a diamond or a ring.
-    pub fn mark(&self, at: Pos2, mark: Mark, radius: f32, colour: Color32) {
+    pub fn mark(&self, at: Pos2, mark: Symbol, radius: f32, colour: Color32) {
         let up = |x: f32, y: f32| at + radius * Vec2::new(x, y);
         match mark {
-            Mark::Dot => {
+            Symbol::Dot => {
                 self.painter.circle_filled(at, radius, colour);
             }
-            Mark::Ring => {
+            Symbol::Ring => {
                 self.painter.circle_stroke(at, radius, Stroke::new(1.75, colour));
             }
-            Mark::Triangle => {
+            Symbol::Triangle => {
                 let corners = vec![up(0.0, -1.15), up(1.0, 0.75), up(-1.0, 0.75)];
                 self.painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
             }
-            Mark::Diamond => {
+            Symbol::Diamond => {
                 let corners = vec![up(0.0, -1.2), up(1.2, 0.0), up(0.0, 1.2), up(-1.2, 0.0)];
                 self.painter.add(Shape::closed_line(corners, Stroke::new(1.5, colour)));
             }
@@ -273,7 +273,7 @@ impl Chart {
 
 /// What stands for a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mark {
+pub enum Symbol {
     /// Stable, or where we are.
     Dot,
     /// Chosen, or a crossing.

@@ -10,7 +10,7 @@ use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
 use crate::app::state::Plot;
-use crate::app::studies::{Shown, Stage, Studies};
+use crate::app::studies::{Shown, Studies, StudyStage};
 use crate::compute::protocol::{AnalysedPose, Extent, ModeChoice, Topic, Which};
 use crate::stability::Critical;
 
@@ -50,7 +50,7 @@ impl Slot {
 
 /// A plot and where it is.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct PlotPlace {
     /// Where it is.
     pub slot: Slot,
     /// Which one it is.
@@ -59,7 +59,7 @@ pub struct Place {
     pub wheel: bool,
 }
 
-impl Place {
+impl PlotPlace {
     /// Its name among all places.
     pub fn id(self) -> Id {
         Id::unique(("plot", self.slot, self.plot.name()))
@@ -75,10 +75,10 @@ impl Place {
 pub fn topic(plot: Plot) -> Option<Topic> {
     match plot {
         Plot::Line => Some(Topic::Line),
-        Plot::Directions => Some(Topic::Polar),
+        Plot::Directions => Some(Topic::Directions),
         Plot::Campbell => Some(Topic::Campbell),
-        Plot::Mesh => Some(Topic::Convergence),
-        Plot::Eigenvalues | Plot::Modes | Plot::Growth | Plot::Knobs => None,
+        Plot::Mesh => Some(Topic::Mesh),
+        Plot::Eigenvalues | Plot::Modes | Plot::Growth | Plot::Sensitivities => None,
     }
 }
 
@@ -144,23 +144,23 @@ pub fn progress(ui: &mut Ui, plot: Plot, studies: &Studies, commands: &mut Vec<C
         }
     };
     match progress.stage {
-        Stage::Working => {
+        StudyStage::Working => {
             if ui.button("Cancel").explained("Stops this study; what is known of it stays").clicked() {
                 commands.push(Command::StopStudy(topic));
             }
             let text = format!("{} of {}", progress.done, progress.total);
             ui.add(Label::new(RichText::new(text).weak()).truncate()).explained("Points computed so far");
         }
-        Stage::Stopped => {
+        StudyStage::Stopped => {
             resumed(ui, "Resume", commands);
             ui.weak("Stopped");
         }
-        Stage::Failed => {
+        StudyStage::Failed => {
             resumed(ui, "Try again", commands);
             let reason = studies.broken().unwrap_or("This could not be computed.");
             ui.add(Label::new(RichText::new(reason).weak()).truncate());
         }
-        Stage::Finished | Stage::Idle => {
+        StudyStage::Finished | StudyStage::Idle => {
             if studies.shown(topic).is_none_or(|shown| shown.current) {
                 return false;
             }

@@ -8,16 +8,16 @@ use eframe::egui::{
 };
 
 use super::axis::signed;
-use super::chart::{self, Chart, Dash, Mark, quad};
-use super::common::{self, Place};
-use super::range::{self, Range};
+use super::chart::{self, Chart, Dash, Symbol, quad};
+use super::common::{self, PlotPlace};
+use super::range::{self, VisibleRange};
 use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
 use crate::app::round::round_step;
 use crate::app::series::{self, degrees};
-use crate::app::studies::{Known, Shown};
+use crate::app::studies::{Shown, StudyResults};
 use crate::app::theme;
 use crate::compute::protocol::Topic;
 use crate::stability::Instability;
@@ -34,8 +34,8 @@ const BESIDE: f32 = 150.0;
 const NEAREST: f32 = 12.0;
 
 /// Draws the diagram and what follows from it.
-pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
-    let Some(Shown { known, current }) = common::study(Topic::Polar, facts) else {
+pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    let Some(Shown { known, current }) = common::study(Topic::Directions, facts) else {
         common::say(ui, "No answer yet.");
         return;
     };
@@ -65,7 +65,7 @@ pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Comman
 
 /// What is drawn.
 struct Diagram<'a> {
-    known: &'a Known,
+    known: &'a StudyResults,
     current: bool,
     /// The direction with the lowest critical speed, and that in m/s.
     lowest: ([f64; 2], f64),
@@ -110,7 +110,7 @@ impl Diagram<'_> {
         signed(&format!("lowest {speed} at {:.0}°", degrees(direction) + 0.0))
     }
 
-    fn ui(&self, place: Place, ui: &Ui, response: &Response) {
+    fn ui(&self, place: PlotPlace, ui: &Ui, response: &Response) {
         let Self { known, current, lowest, facts } = self;
         let now = facts.document.scenario.motion.speed;
         response.widget_info(|| {
@@ -131,7 +131,7 @@ impl Diagram<'_> {
         let outermost = f64::from(count) * step;
         let reach = 1.18 * outermost.max(if now < 2.0 * largest { now } else { 0.0 });
         let fit = [[-reach, reach]; 2];
-        let axes = Chart::axes(rect, Range::of(ui.ctx(), place.id()).bounds(fit, fit));
+        let axes = Chart::axes(rect, VisibleRange::of(ui.ctx(), place.id()).bounds(fit, fit));
         let mut chart = Chart::new(ui, outer, outer, axes);
         let tokens = chart.tokens;
         let shade = |colour| if *current { colour } else { tokens.mute };
@@ -140,7 +140,7 @@ impl Diagram<'_> {
         let curves = series::around(known);
         fan(&chart, &curves, shade(tokens.stable).gamma_multiply(0.09));
         rings(&mut chart, ui, step, count);
-        if let Some(before) = facts.pinned.and_then(|pinned| pinned.study(Topic::Polar)) {
+        if let Some(before) = facts.pinned.and_then(|pinned| pinned.study(Topic::Directions)) {
             for stretch in series::around(before) {
                 chart.curve(&stretch, Stroke::new(1.5, theme::pinned(ui.visuals())), Dash::Dashed);
             }
@@ -171,7 +171,7 @@ impl Diagram<'_> {
             chart.label("waves", words(tokens.waves), &[spot]);
         }
         chart.finish();
-        chart.mark(at, Mark::Dot, 4.5, shade(tokens.critical));
+        chart.mark(at, Symbol::Dot, 4.5, shade(tokens.critical));
         range::turn(ui, response, place.id(), axes, fit, place.turning([true, true]));
         if let Some(pointer) = response.hover_pos().filter(|_| !response.dragged()) {
             self.read(&chart, pointer);
@@ -199,7 +199,7 @@ impl Diagram<'_> {
                     Instability::Divergence => "divergence".into(),
                 };
                 let at = chart.pos([critical.speed * direction[0], critical.speed * direction[1]]);
-                chart.mark(at, Mark::Ring, 6.0, chart.tokens.text);
+                chart.mark(at, Symbol::Ring, 6.0, chart.tokens.text);
                 (at, vec![format!("{angle}: critical {speed} m/s"), format!("{kind}, cable {}", critical.cable + 1)])
             }
             Verdict::NoneUpTo(limit) => (pointer, vec![format!("{angle}: stable up to {limit} m/s")]),

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use eframe::egui::{Align2, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
 use super::axis::signed;
-use super::chart::{self, Chart, Dash, Mark, Titles};
-use super::common::{self, Place, Slot, brief, near, with_modes};
+use super::chart::{self, Chart, Dash, Symbol, Titles};
+use super::common::{self, PlotPlace, Slot, brief, near, with_modes};
 use super::modes::{self, moved};
-use super::range::{self, Range};
+use super::range::{self, VisibleRange};
 use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
@@ -37,7 +37,7 @@ const LOWEST: usize = 6;
 const ROWS: f32 = 7.0;
 
 /// Draws the plot, and the short table of modes where it has room.
-pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     if let Some(note) = common::note_on_modes(facts.answers) {
         common::say(ui, note);
     }
@@ -76,7 +76,7 @@ fn point([re, im]: [f64; 2], hertz: f64) -> [f64; 2] {
 }
 
 fn plot(
-    place: Place,
+    place: PlotPlace,
     ui: &Ui,
     response: &Response,
     facts: Facts<'_>,
@@ -105,7 +105,7 @@ fn plot(
     let title = format!("frequency, {unit}");
     let titles = Titles { x: Some("growth rate Re λ, 1/s"), x_unit: None, y: Some(&title) };
     let inner = chart::inner(ui, outer, titles);
-    let axes = Chart::axes(inner, Range::of(ui.ctx(), place.id()).bounds(fit, all));
+    let axes = Chart::axes(inner, VisibleRange::of(ui.ctx(), place.id()).bounds(fit, all));
     let mut chart = Chart::new(ui, outer, inner, axes);
     let tokens = chart.tokens;
     let shade = |colour| if grey { tokens.mute } else { colour };
@@ -132,13 +132,13 @@ fn plot(
     if let Some(before) = pinned.and_then(Pinned::pose) {
         let colour = theme::pinned(ui.visuals());
         for mode in &before.modes {
-            chart.mark(chart.pos(point(mode.eigenvalue, hertz)), Mark::Diamond, 4.0, colour);
+            chart.mark(chart.pos(point(mode.eigenvalue, hertz)), Symbol::Diamond, 4.0, colour);
         }
     }
     let places: Vec<Pos2> = eigenvalues.iter().map(|&value| at_edge(&chart, point(value, hertz))).collect();
     for (&at, [growth, _]) in places.iter().zip(&eigenvalues) {
         let (mark, radius, colour) =
-            if *growth > 0.0 { (Mark::Triangle, 6.0, tokens.critical) } else { (Mark::Dot, 4.5, tokens.stable) };
+            if *growth > 0.0 { (Symbol::Triangle, 6.0, tokens.critical) } else { (Symbol::Dot, 4.5, tokens.stable) };
         if inner.expand(radius).contains(at) {
             chart.keep_free(at, radius);
         }
@@ -146,11 +146,11 @@ fn plot(
     }
     let ring = answers.shape().map(|shape| shape.eigenvalue).filter(|_| !grey);
     if let Some(ring) = ring {
-        chart.mark(at_edge(&chart, point(ring, hertz)), Mark::Ring, 9.0, tokens.accent);
+        chart.mark(at_edge(&chart, point(ring, hertz)), Symbol::Ring, 9.0, tokens.accent);
     }
     if let (Some(critical), Some(speed)) = (critical.filter(|_| !grey), speed) {
         let at = chart.pos([0.0, critical.frequency_hz() * hertz]);
-        chart.mark(at, Mark::Ring, 6.0, tokens.critical);
+        chart.mark(at, Symbol::Ring, 6.0, tokens.critical);
         if inner.expand(2.0).contains(at) {
             let left = at - Vec2::new(10.0, 0.0);
             chart.label(format!("{speed} m/s"), tokens.critical, &[left]);
@@ -173,7 +173,7 @@ fn plot(
     let chosen = || eigenvalues.iter().position(|value| Some(*value) == ring);
     let named = hovered.or_else(|| chosen().filter(|_| place.slot.is_sheet()));
     if let Some(i) = named.filter(|&i| inner.expand(8.0).contains(places[i])) {
-        chart.mark(places[i], Mark::Ring, 7.0, tokens.text);
+        chart.mark(places[i], Symbol::Ring, 7.0, tokens.text);
         chart.card(places[i], &lines(&pose.modes[i], settings));
     }
     if let Some(clicked) = response.interact_pointer_pos().filter(|_| response.clicked() && !grey)

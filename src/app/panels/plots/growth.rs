@@ -4,8 +4,8 @@ use eframe::egui::{Align2, Pos2, Role, Sense, Stroke, Ui, Vec2, WidgetInfo};
 
 use super::axis::signed;
 use super::chart::{Chart, Dash, Titles, inner};
-use super::common::{self, Place};
-use super::range::{self, Range};
+use super::common::{self, PlotPlace};
+use super::range::{self, VisibleRange};
 use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::{series, theme};
@@ -16,7 +16,7 @@ pub const MEANING: &str = "At every speed there is one vibration that dies away 
     the critical speed.";
 
 /// Draws the plot.
-pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>) {
+pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>) {
     let Facts { document, answers, pinned, .. } = facts;
     let Some((curve, current)) = answers.curve().filter(|(points, _)| !points.is_empty()) else {
         common::say(ui, "No growth rates at this pose.");
@@ -29,7 +29,7 @@ pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>) {
     let seen = near_zero(curve);
     let fit = bounds(&seen);
     let now = document.scenario.motion.speed;
-    let axes = Chart::axes(rect, Range::of(ui.ctx(), place.id()).bounds(fit, bounds(curve)));
+    let axes = Chart::axes(rect, VisibleRange::of(ui.ctx(), place.id()).bounds(fit, bounds(curve)));
     let mut chart = Chart::new(ui, outer, rect, axes);
     let tokens = chart.tokens;
     let shade = |colour| if current { colour } else { tokens.mute };
@@ -50,7 +50,9 @@ pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>) {
             chart.label(format!("pinned {speed}"), colour, &[at]);
         }
     }
-    for piece in series::growth(&if Range::of(ui.ctx(), place.id()) == Range::Fit { seen } else { curve.to_vec() }) {
+    for piece in
+        series::growth(&if VisibleRange::of(ui.ctx(), place.id()) == VisibleRange::Fit { seen } else { curve.to_vec() })
+    {
         let points: Vec<[f64; 2]> = piece.points.iter().map(|(speed, rate)| [*speed, rate.re]).collect();
         let stroke = if piece.unstable {
             Stroke::new(3.0, shade(tokens.critical))
@@ -81,7 +83,7 @@ pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>) {
         && let Some([speed, rate]) = at(chart.x.value(pointer.x))
     {
         let place = chart.pos([speed, rate]);
-        chart.mark(place, super::chart::Mark::Ring, 5.0, tokens.text);
+        chart.mark(place, super::chart::Symbol::Ring, 5.0, tokens.text);
         chart.card(place, &[format!("{speed:.2} m/s"), how(rate)]);
     }
     response.widget_info(|| {

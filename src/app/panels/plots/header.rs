@@ -6,8 +6,8 @@ use eframe::egui::{
 };
 
 use super::axis::signed;
-use super::common::{self, Place, Slot};
-use super::range::Range;
+use super::common::{self, PlotPlace, Slot};
+use super::range::VisibleRange;
 use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::export::Content;
@@ -35,15 +35,15 @@ pub struct Header<'a> {
 }
 
 /// Whether a plot's explanation is open.
-pub fn explains(context: &Context, place: Place) -> bool {
+pub fn explains(context: &Context, place: PlotPlace) -> bool {
     context.data(|data| data.get_temp(explanation_id(place))).unwrap_or_default()
 }
 
-fn explanation_id(place: Place) -> Id {
+fn explanation_id(place: PlotPlace) -> Id {
     place.id().with("explanation")
 }
 
-fn toggle_explanation(context: &Context, place: Place) {
+fn toggle_explanation(context: &Context, place: PlotPlace) {
     let open = !explains(context, place);
     context.data_mut(|data| data.insert_temp(explanation_id(place), open));
 }
@@ -55,7 +55,7 @@ impl Header<'_> {
             Slot::Dock => {
                 ui.horizontal(|ui| {
                     self.tabs(ui, PlotGroup::Workspace);
-                    let place = Place { slot, plot: *self.open, wheel };
+                    let place = PlotPlace { slot, plot: *self.open, wheel };
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         self.more(place, ui, facts, commands);
                         self.tools(place, ui);
@@ -73,7 +73,7 @@ impl Header<'_> {
             Slot::Right | Slot::Second | Slot::Large if ui.available_width() >= WIDE => {
                 ui.horizontal(|ui| {
                     self.groups(ui);
-                    let place = Place { slot, plot: *self.open, wheel };
+                    let place = PlotPlace { slot, plot: *self.open, wheel };
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         self.more(place, ui, facts, commands);
                         self.tools(place, ui);
@@ -81,13 +81,13 @@ impl Header<'_> {
                 });
                 ui.horizontal(|ui| {
                     self.tabs(ui, self.open.group());
-                    let place = Place { slot, plot: *self.open, wheel };
+                    let place = PlotPlace { slot, plot: *self.open, wheel };
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| caption(place, ui, facts, commands));
                 });
             }
             Slot::Right | Slot::Second | Slot::Large | Slot::Present => {
                 ui.horizontal(|ui| {
-                    let place = Place { slot, plot: *self.open, wheel };
+                    let place = PlotPlace { slot, plot: *self.open, wheel };
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         self.more(place, ui, facts, commands);
                         self.groups(ui);
@@ -95,7 +95,7 @@ impl Header<'_> {
                 });
                 ui.horizontal_wrapped(|ui| self.tabs(ui, self.open.group()));
                 ui.horizontal(|ui| {
-                    let place = Place { slot, plot: *self.open, wheel };
+                    let place = PlotPlace { slot, plot: *self.open, wheel };
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         self.tools(place, ui);
                         ui.with_layout(Layout::left_to_right(Align::Center), |ui| caption(place, ui, facts, commands));
@@ -110,7 +110,7 @@ impl Header<'_> {
     }
 
     /// Draws what is below a plot: what it means, and on a phone the tools.
-    pub fn foot(&mut self, place: Place, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    pub fn foot(&mut self, place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
             explainer(place, ui);
             if place.slot.is_sheet() {
@@ -194,7 +194,7 @@ impl Header<'_> {
     }
 
     /// What else can be done with the plot.
-    fn more(&self, place: Place, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    fn more(&self, place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
         let more = tool(ui, Icon::More, "", &format!("More for {}", place.plot.title())).show(ui);
         Popup::menu(&more).close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(|ui| {
             self.menu(place, ui, facts, commands);
@@ -202,7 +202,7 @@ impl Header<'_> {
     }
 
     /// Fit, all and enlarge, from right to left.
-    fn tools(&mut self, place: Place, ui: &mut Ui) {
+    fn tools(&mut self, place: PlotPlace, ui: &mut Ui) {
         ui.spacing_mut().item_spacing.x = 2.0;
         let title = place.plot.title();
         if place.slot == Slot::Large {
@@ -215,31 +215,31 @@ impl Header<'_> {
         if !can_be_turned(place.plot) {
             return;
         }
-        let range = Range::of(ui.ctx(), place.id());
+        let range = VisibleRange::of(ui.ctx(), place.id());
         if place.plot == Plot::Eigenvalues {
             let name = "All eigenvalues";
             if tool(ui, Icon::None, "All", name)
-                .selected(range == Range::All)
+                .selected(range == VisibleRange::All)
                 .show(ui)
                 .explained("Shows all of them")
                 .clicked()
             {
-                Range::All.show(ui.ctx(), place.id());
+                VisibleRange::All.show(ui.ctx(), place.id());
             }
         }
         // In the dock the line is as wide as the robot.
         let shared = place.slot.is_under_the_robot() && place.plot == Plot::Line;
-        let fits = if shared { *self.camera == Camera::default() } else { range == Range::Fit };
+        let fits = if shared { *self.camera == Camera::default() } else { range == VisibleRange::Fit };
         let fit = tool(ui, Icon::Fit, "Fit", &format!("Fit {title}")).selected(fits).show(ui);
         if fit.explained("Shows what matters").clicked() {
             if shared {
                 *self.camera = Camera::default();
             }
-            Range::Fit.show(ui.ctx(), place.id());
+            VisibleRange::Fit.show(ui.ctx(), place.id());
         }
     }
 
-    fn menu(&self, place: Place, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    fn menu(&self, place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
         let mut save = |ui: &mut Ui, name: &str, content: Content| {
             if ui.button(name).clicked() {
                 commands.push(Command::Save(content));
@@ -268,11 +268,11 @@ impl Header<'_> {
 
 /// Whether a plot has a part that can be out of sight.
 fn can_be_turned(plot: Plot) -> bool {
-    !matches!(plot, Plot::Modes | Plot::Knobs)
+    !matches!(plot, Plot::Modes | Plot::Sensitivities)
 }
 
 /// What is to be said first of a plot: how far its study has come, from when it is, or what a click does.
-fn caption(place: Place, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+fn caption(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     let Facts { answers, studies, document, .. } = facts;
     if common::progress(ui, place.plot, studies, commands) {
         return;
@@ -292,7 +292,7 @@ fn caption(place: Place, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Comma
         Plot::Campbell => kept.unwrap_or_else(|| "Click to set the speed.".into()),
         Plot::Eigenvalues | Plot::Modes => kept.unwrap_or_else(|| "Click one: its mode moves.".into()),
         Plot::Growth => kept.unwrap_or_else(|| "Above zero something grows.".into()),
-        Plot::Knobs => kept.unwrap_or_else(|| "Click one to turn it.".into()),
+        Plot::Sensitivities => kept.unwrap_or_else(|| "Click one to turn it.".into()),
     };
     ui.add(Label::new(RichText::new(text).weak().small()).truncate());
 }
@@ -331,7 +331,7 @@ fn tab(ui: &mut Ui, title: &str, font: &FontId, chosen: bool) -> Response {
 }
 
 /// A text that looks like what it is: something that opens an explanation.
-fn explainer(place: Place, ui: &mut Ui) {
+fn explainer(place: PlotPlace, ui: &mut Ui) {
     let tokens = theme::tokens(ui.visuals());
     let font = TextStyle::Button.resolve(ui.style());
     let galley = ui.painter().layout_no_wrap("What am I seeing?".into(), font, tokens.accent_text);

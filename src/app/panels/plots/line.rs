@@ -4,8 +4,8 @@ use eframe::egui::{Align2, Pos2, Rect, Response, Role, Sense, Stroke, Ui, Widget
 
 use super::axis::{Axis, signed};
 use super::chart::{self, Chart, Dash, Titles};
-use super::common::{self, Place, Slot};
-use super::range::{self, Range};
+use super::common::{self, PlotPlace, Slot};
+use super::range::{self, VisibleRange};
 use crate::app::canvas::View;
 use crate::app::command::Command;
 use crate::app::digits;
@@ -40,7 +40,7 @@ fn shown(facts: Facts<'_>) -> Option<(Along, bool)> {
 }
 
 /// Draws the plots in all the room there is. With a `view`, and where the motion is horizontal, they are on its axis.
-pub fn ui(place: Place, view: Option<&View>, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(place: PlotPlace, view: Option<&View>, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     let Some((along, current)) = shown(facts) else {
         common::say(ui, "The study along the line has no answer yet.");
         return;
@@ -77,7 +77,14 @@ struct Drawing<'a> {
 
 impl Drawing<'_> {
     /// Draws it within `response`; without a place it is the strip.
-    fn ui(&self, place: Option<Place>, view: Option<&View>, ui: &Ui, response: &Response, commands: &mut Vec<Command>) {
+    fn ui(
+        &self,
+        place: Option<PlotPlace>,
+        view: Option<&View>,
+        ui: &Ui,
+        response: &Response,
+        commands: &mut Vec<Command>,
+    ) {
         let Self { along, facts, .. } = self;
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, self.told()));
         let outer = response.rect;
@@ -85,7 +92,7 @@ impl Drawing<'_> {
         let titles = Titles { x_unit: Some("m"), ..Titles::default() };
         let mut room = chart::inner(ui, outer, titles);
         let both = place.is_some() && room.height() >= BOTH;
-        let id = place.map(Place::id);
+        let id = place.map(PlotPlace::id);
         let x = match (view, id) {
             (Some(view), _) => {
                 // The same points of the screen as the robot has.
@@ -96,7 +103,7 @@ impl Drawing<'_> {
             }
             (None, Some(id)) => {
                 let fit = [along.range, [0.0, 1.0]];
-                let [range, _] = Range::of(ui.ctx(), id).bounds(fit, fit);
+                let [range, _] = VisibleRange::of(ui.ctx(), id).bounds(fit, fit);
                 Axis::linear(range, [room.left(), room.right()])
             }
             (None, None) => Axis::linear(along.range, [room.left(), room.right()]),

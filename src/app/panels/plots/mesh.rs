@@ -2,9 +2,9 @@
 
 use eframe::egui::{Pos2, Role, Sense, Stroke, Ui, WidgetInfo};
 
-use super::chart::{Chart, Dash, Mark, Titles, inner};
-use super::common::{self, Place};
-use super::range::{self, Range};
+use super::chart::{Chart, Dash, Symbol, Titles, inner};
+use super::common::{self, PlotPlace};
+use super::range::{self, VisibleRange};
 use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::series::Meshes;
@@ -21,10 +21,10 @@ pub const MEANING: &str = "A cable of n elements is a chain of straight pieces. 
     off.";
 
 /// Draws the plot.
-pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>) {
+pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>) {
     let Facts { document, pinned, .. } = facts;
     let now = document.scenario.elements_per_cable;
-    let shown = common::study(Topic::Convergence, facts);
+    let shown = common::study(Topic::Mesh, facts);
     let Some((Shown { known, current }, meshes)) =
         shown.and_then(|shown| Some((shown, Meshes::new(shown.known, now)?)))
     else {
@@ -54,7 +54,7 @@ pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>) {
     let titles = Titles { x: Some("elements per cable"), x_unit: None, y: Some("critical speed, m/s") };
     let rect = inner(ui, outer, titles);
     let fit = bounds(&stretches, limit.as_ref(), now);
-    let axes = Chart::axes(rect, Range::of(ui.ctx(), place.id()).bounds(fit, fit));
+    let axes = Chart::axes(rect, VisibleRange::of(ui.ctx(), place.id()).bounds(fit, fit));
     let mut chart = Chart::new(ui, outer, rect, axes);
     let tokens = chart.tokens;
     let shade = |colour| if current { colour } else { tokens.mute };
@@ -68,7 +68,7 @@ pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>) {
         let spots = [0.8, 0.5].map(|part| Pos2::new(rect.left() + part * rect.width(), chart.y.pos(limit)));
         chart.label(format!("limit {}", digits::certain(limit, Some(uncertainty))), words(tokens.text), &spots);
     }
-    if let Some(before) = pinned.and_then(|pinned| Meshes::new(pinned.study(Topic::Convergence)?, now)) {
+    if let Some(before) = pinned.and_then(|pinned| Meshes::new(pinned.study(Topic::Mesh)?, now)) {
         let colour = theme::pinned(ui.visuals());
         for stretch in before.stretches() {
             chart.curve(&stretch, Stroke::new(1.5, colour), Dash::Dashed);
@@ -81,7 +81,7 @@ pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>) {
     for stretch in &stretches {
         chart.curve(stretch, Stroke::new(2.25, shade(tokens.critical)), Dash::Solid);
         for &point in stretch {
-            chart.mark(chart.pos(point), Mark::Dot, 4.0, shade(tokens.critical));
+            chart.mark(chart.pos(point), Symbol::Dot, 4.0, shade(tokens.critical));
         }
     }
     chart.upright(now as f64, Stroke::new(1.5, tokens.accent), Dash::Dashed);
@@ -96,7 +96,7 @@ pub fn ui(place: Place, ui: &mut Ui, facts: Facts<'_>) {
         let distance = |point: [f64; 2]| chart.pos(point).distance(pointer);
         let nearest = points().min_by(|a, b| distance(*a).total_cmp(&distance(*b)));
         if let Some(point) = nearest.filter(|point| distance(*point) < 40.0) {
-            chart.mark(chart.pos(point), Mark::Ring, 7.0, tokens.text);
+            chart.mark(chart.pos(point), Symbol::Ring, 7.0, tokens.text);
             let speed = digits::certain(point[1], Some(0.0));
             chart.card(chart.pos(point), &[format!("{:.0} elements", point[0]), format!("critical {speed} m/s")]);
         }

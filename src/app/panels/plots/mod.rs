@@ -8,12 +8,12 @@ mod directions;
 mod eigenvalues;
 mod growth;
 mod header;
-mod knobs;
 mod labels;
 mod line;
 mod mesh;
 mod modes;
 mod range;
+mod sensitivities;
 
 use eframe::egui::{Align, Id, Label, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
@@ -25,7 +25,7 @@ use crate::app::command::Command;
 use crate::app::facts::Facts;
 use crate::app::gestures;
 use crate::app::state::{Plot, PlotGroup, Session, UiState};
-use common::Place;
+use common::PlotPlace;
 use header::Header;
 
 /// Room beside the tabs under the robot, in points.
@@ -73,7 +73,7 @@ pub fn ui(
             let inside = ui.available_rect_before_wrap().shrink2(Vec2::new(margin, 0.0));
             ui.scope_builder(UiBuilder::new().max_rect(inside), |ui| header.ui(slot, wheel, ui, facts, commands));
         }
-        let place = Place { slot, plot: *header.open, wheel };
+        let place = PlotPlace { slot, plot: *header.open, wheel };
         let foot =
             if matches!(slot, Slot::Dock | Slot::Present) { 0.0 } else { ui.spacing().interact_size.y.max(28.0) + 4.0 };
         let room = ui.available_rect_before_wrap();
@@ -108,7 +108,7 @@ pub fn ui(
 
 /// Draws a plot, and below it what it means, where that is asked for.
 fn explained(
-    place: Place,
+    place: PlotPlace,
     view: Option<&View>,
     highest: &mut f64,
     ui: &mut Ui,
@@ -133,7 +133,7 @@ fn explained(
             Plot::Directions => directions::ui(place, ui, facts, commands),
             Plot::Campbell => campbell::ui(place, highest, ui, facts, commands),
             Plot::Mesh => mesh::ui(place, ui, facts),
-            Plot::Knobs => knobs::ui(ui, facts, commands),
+            Plot::Sensitivities => sensitivities::ui(ui, facts, commands),
         }
     });
     if let Some(text) = text {
@@ -151,6 +151,6 @@ fn explanation(plot: Plot, facts: Facts<'_>) -> String {
         Plot::Directions => directions::MEANING.into(),
         Plot::Campbell => campbell::MEANING.into(),
         Plot::Mesh => mesh::MEANING.into(),
-        Plot::Knobs => knobs::MEANING.into(),
+        Plot::Sensitivities => sensitivities::MEANING.into(),
     }
 }

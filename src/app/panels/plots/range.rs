@@ -10,7 +10,7 @@ const ZOOM: [f64; 2] = [1e-6, 1e3];
 
 /// Which part of a chart is on show.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Range {
+pub enum VisibleRange {
     /// What matters.
     #[default]
     Fit,
@@ -20,7 +20,7 @@ pub enum Range {
     Own([[f64; 2]; 2]),
 }
 
-impl Range {
+impl VisibleRange {
     /// That of the chart with this name.
     pub fn of(context: &Context, chart: Id) -> Self {
         context.data(|data| data.get_temp(chart)).unwrap_or_default()
@@ -55,7 +55,7 @@ pub struct Turning {
 pub fn turn(ui: &Ui, response: &Response, chart: Id, axes: [Axis; 2], fit: [[f64; 2]; 2], turning: Turning) {
     gestures::scrolls_or_turns(response);
     if response.double_clicked() {
-        Range::Fit.show(ui.ctx(), chart);
+        VisibleRange::Fit.show(ui.ctx(), chart);
         return;
     }
     let touch = ui.input(InputState::multi_touch).filter(|touch| response.rect.contains(touch.center_pos));
@@ -88,7 +88,7 @@ pub fn turn(ui: &Ui, response: &Response, chart: Id, axes: [Axis; 2], fit: [[f64
             bounds[i] = range;
         }
     }
-    Range::Own(bounds).show(ui.ctx(), chart);
+    VisibleRange::Own(bounds).show(ui.ctx(), chart);
 }
 
 /// What an axis shows once it has been magnified about a point of the screen, and moved by `moved` points.
@@ -122,13 +122,13 @@ mod tests {
     fn a_range_is_remembered_until_it_is_fitted() {
         let (context, chart) = (Context::default(), Id::unique("a chart"));
         let (fit, all) = ([[0.0, 1.0]; 2], [[0.0, 9.0]; 2]);
-        assert_eq!(Range::of(&context, chart).bounds(fit, all), fit);
-        Range::All.show(&context, chart);
-        assert_eq!(Range::of(&context, chart).bounds(fit, all), all);
+        assert_eq!(VisibleRange::of(&context, chart).bounds(fit, all), fit);
+        VisibleRange::All.show(&context, chart);
+        assert_eq!(VisibleRange::of(&context, chart).bounds(fit, all), all);
         let own = [[0.2, 0.4], [0.1, 0.3]];
-        Range::Own(own).show(&context, chart);
-        assert_eq!(Range::of(&context, chart).bounds(fit, all), own);
-        Range::Fit.show(&context, chart);
-        assert_eq!(Range::of(&context, chart), Range::Fit);
+        VisibleRange::Own(own).show(&context, chart);
+        assert_eq!(VisibleRange::of(&context, chart).bounds(fit, all), own);
+        VisibleRange::Fit.show(&context, chart);
+        assert_eq!(VisibleRange::of(&context, chart), VisibleRange::Fit);
     }
 }

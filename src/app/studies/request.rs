@@ -30,20 +30,20 @@ const ANY_ELEMENTS: usize = 10;
 /// Stands for the motion, which does not matter: a study has its own poses, directions and speeds.
 const ANY_MOTION: Motion = Motion { position: [0.0, 0.0], direction: [1.0, 0.0], speed: 0.0 };
 
-/// A study and all that its answers depend on, and nothing else: two wishes that are equal have the same answers.
+/// A study and all that its answers depend on, and nothing else: two requests that are equal have the same answers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wish {
+pub struct StudyRequest {
     /// The scenario; what the study does not look at has a fixed value.
     pub scenario: Scenario,
     /// The study.
     pub study: Study,
 }
 
-impl Wish {
+impl StudyRequest {
     /// `study` of the robot of `scenario`.
     pub fn new(scenario: &Scenario, study: Study) -> Self {
         let mut scenario = Scenario { name: None, motion: ANY_MOTION, ..scenario.clone() };
-        if matches!(study, Study::Elements { .. }) {
+        if matches!(study, Study::Mesh { .. }) {
             scenario.elements_per_cable = ANY_ELEMENTS;
         }
         // Statics know nothing of what moves.
@@ -58,7 +58,7 @@ impl Wish {
     pub fn meshes(scenario: &Scenario, counts: Vec<usize>) -> Option<Self> {
         let (_, motion) = scenario.to_robot().ok()?;
         let (position, direction) = (motion.position(), motion.direction());
-        Some(Self::new(scenario, Study::Elements { position, direction, counts, limit: DEFAULT_MAX_SPEED }))
+        Some(Self::new(scenario, Study::Mesh { position, direction, counts, limit: DEFAULT_MAX_SPEED }))
     }
 
     /// What it is about.
@@ -81,13 +81,19 @@ impl Wish {
 /// the map where it is switched on, and those of the plots on show, of each topic one; where nothing is under way that
 /// could be disturbed, `at_rest`, also which digits of the critical speed are certain. `critical` is the last critical
 /// speed known, in m/s.
-pub fn wanted(scenario: &Scenario, state: &UiState, plots: &[Plot], critical: Option<f64>, at_rest: bool) -> Vec<Wish> {
+pub fn wanted(
+    scenario: &Scenario,
+    state: &UiState,
+    plots: &[Plot],
+    critical: Option<f64>,
+    at_rest: bool,
+) -> Vec<StudyRequest> {
     let Ok((robot, motion)) = scenario.to_robot() else { return Vec::new() };
     let (position, direction) = (motion.position(), motion.direction());
     let limit = DEFAULT_MAX_SPEED;
     let [nx, ny] = map_points(&robot);
     let grid = Grid::of(&robot, nx, ny);
-    let mut wishes = vec![Wish::new(scenario, Study::Border { grid: within(grid) })];
+    let mut requests = vec![StudyRequest::new(scenario, Study::Border { grid: within(grid) })];
     if state.map.on {
         let directions =
             if state.map.worst { Directions::Worst(Directions::WORST_OF) } else { Directions::One(direction) };
@@ -95,27 +101,30 @@ pub fn wanted(scenario: &Scenario, state: &UiState, plots: &[Plot], critical: Op
             MapQuantity::Growth => Mapped::Growth { speed: motion.speed() },
             _ => Mapped::Critical { limit },
         };
-        wishes.push(Wish::new(scenario, Study::Map { grid, directions, mapped }));
+        requests.push(StudyRequest::new(scenario, Study::Map { grid, directions, mapped }));
     }
     let shows = |list: &[Plot]| list.iter().any(|plot| plots.contains(plot));
     if shows(&[Plot::Line]) {
-        wishes.push(Wish::new(scenario, Study::Line { line: Line::through(&robot, &motion, LINE_POINTS), limit }));
+        requests.push(StudyRequest::new(
+            scenario,
+            Study::Line { line: Line::through(&robot, &motion, LINE_POINTS), limit },
+        ));
     }
     if shows(&[Plot::Directions]) {
-        wishes.push(Wish::new(scenario, Study::Polar { position, count: DIRECTIONS, limit }));
+        requests.push(StudyRequest::new(scenario, Study::Directions { position, count: DIRECTIONS, limit }));
     }
     // Eigenvalues leave traces from rest on.
     if shows(&[Plot::Campbell, Plot::Eigenvalues]) {
         let to = highest_speed(motion.speed(), critical);
-        wishes.push(Wish::new(scenario, Study::Speeds { position, direction, to, count: SPEEDS }));
+        requests.push(StudyRequest::new(scenario, Study::Campbell { position, direction, to, count: SPEEDS }));
     }
     let meshes = if shows(&[Plot::Mesh]) {
         Some(meshes(scenario.elements_per_cable))
     } else {
         (at_rest && critical.is_some()).then(|| fine(scenario.elements_per_cable))
     };
-    wishes.extend(meshes.and_then(|counts| Wish::meshes(scenario, counts)));
-    wishes
+    requests.extend(meshes.and_then(|counts| StudyRequest::meshes(scenario, counts)));
+    requests
 }
 
 /// The meshes that tell which digits of the critical speed are certain: three, each with twice the elements of the one
@@ -175,35 +184,35 @@ mod tests {
         state
     }
 
-    /// Whether the wish for `plot`, or for the map, changes when `edit` is made.
+    /// Whether the request for `plot`, or for the map, changes when `edit` is made.
     fn changes(state: &UiState, edit: impl Fn(&mut Scenario)) -> bool {
         let before = presets::PRESETS[0].scenario();
         let mut after = before.clone();
         edit(&mut after);
-        let wish = |scenario| wanted(scenario, state, &[state.plot], Some(11.3), false).pop();
-        wish(&before) != wish(&after)
+        let request = |scenario| wanted(scenario, state, &[state.plot], Some(11.3), false).pop();
+        request(&before) != request(&after)
     }
 
     #[test]
     fn only_what_is_open_is_wanted() {
         let paper = presets::PRESETS[0].scenario();
         let topics = |state: &UiState, plots: &[Plot]| -> Vec<Topic> {
-            wanted(&paper, state, plots, None, true).iter().map(Wish::topic).collect()
+            wanted(&paper, state, plots, None, true).iter().map(StudyRequest::topic).collect()
         };
         let border = Topic::Border;
         assert_eq!(topics(&state(false, Plot::Modes), &[Plot::Modes]), [border]);
-        assert_eq!(topics(&state(true, Plot::Mesh), &[Plot::Mesh]), [border, Topic::Map, Topic::Convergence]);
+        assert_eq!(topics(&state(true, Plot::Mesh), &[Plot::Mesh]), [border, Topic::Map, Topic::Mesh]);
         // All plots on show, each topic once: eigenvalues leave the traces that the speed diagram is made of.
         let all: Vec<Plot> = Plot::all().chain([Plot::Line]).collect();
-        let of_all = [border, Topic::Line, Topic::Polar, Topic::Campbell, Topic::Convergence];
+        let of_all = [border, Topic::Line, Topic::Directions, Topic::Campbell, Topic::Mesh];
         assert_eq!(topics(&state(false, Plot::Modes), &all), of_all);
         assert_eq!(topics(&state(false, Plot::Modes), &[Plot::Eigenvalues]), [border, Topic::Campbell]);
         // At rest, also which digits are certain, unless the plot of meshes says so.
-        let at_rest = |plot, critical, at_rest| -> Vec<Wish> {
+        let at_rest = |plot, critical, at_rest| -> Vec<StudyRequest> {
             wanted(&paper, &state(false, Plot::Modes), &[plot], critical, at_rest).split_off(1)
         };
-        let meshes = |wishes: Vec<Wish>| match &wishes[..] {
-            [Wish { study: Study::Elements { counts, .. }, .. }] => counts.clone(),
+        let meshes = |requests: Vec<StudyRequest>| match &requests[..] {
+            [StudyRequest { study: Study::Mesh { counts, .. }, .. }] => counts.clone(),
             other => panic!("{other:?}"),
         };
         assert_eq!(meshes(at_rest(Plot::Modes, Some(11.3), true)), [10, 20, 40]);
@@ -250,13 +259,13 @@ mod tests {
         assert_eq!(dependence(&map), [false, true, false, true]);
         // One study answers these.
         let paper = presets::PRESETS[0].scenario();
-        let wish = |quantity| {
+        let request = |quantity| {
             let mut state = state(true, Plot::Modes);
             state.map.quantity = quantity;
             wanted(&paper, &state, &[], None, true)
         };
         for quantity in [MapQuantity::Frequency, MapQuantity::Kind, MapQuantity::Cable, MapQuantity::Waves] {
-            assert_eq!(wish(quantity), wish(MapQuantity::Speed));
+            assert_eq!(request(quantity), request(MapQuantity::Speed));
         }
     }
 
