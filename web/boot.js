@@ -154,10 +154,11 @@
     }
 
     if (typeof WebAssembly !== "object") {
-        fail("This browser cannot run Tautline", "It has no WebAssembly. " + reload);
+        fail("This browser cannot run Tautline", "It has no WebAssembly, which the text version needs as well. " + reload);
     } else if (!drawing()) {
-        fail("This browser cannot show Tautline",
-            "It offers no WebGL 2. Often it is only switched off: look for “hardware acceleration” in the browser's settings, then reload the page.");
+        const add = fail("This browser cannot show Tautline",
+            "It offers no WebGL 2. Often it is only switched off: look for “hardware acceleration” in the browser's settings, then reload the page. The text version needs none.");
+        add("a", "Open the text version").href = `text.html${location.hash}`;
     } else {
         start();
     }

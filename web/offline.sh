@@ -3,7 +3,7 @@
 #
 # All that a page loads goes into one folder, named after what the build contains. A page therefore gets its files from
 # its own build or not at all, whatever browsers, proxies or the service worker keep of other builds. Where a page can
-# be found by itself, its files keep their names: the page, its icons, the manifest, sw.js.
+# be found by itself, its files keep their names: the page, its text version, the icons, the manifest, sw.js.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 template=$here/sw.js
@@ -17,13 +17,15 @@ build=build-$(find . -type f -exec "${sum[@]}" {} + | LC_ALL=C sort | "${sum[@]}
 mkdir "$build"
 for entry in *; do
     case $entry in
-        "$build" | index.html | icon.svg | icons | manifest.webmanifest | sw.js) ;;
+        "$build" | index.html | text.html | icon.svg | icons | manifest.webmanifest | sw.js) ;;
         *) mv "$entry" "$build/" ;;
     esac
 done
-# The addresses that Trunk writes begin with "./", those in index.html of files that stay do not.
-sed "s|=\"\./|=\"./$build/|g" index.html > "$build/index.html"
-mv "$build/index.html" index.html
+# The addresses of files that move begin with "./", those of files that stay do not.
+for page in index.html text.html; do
+    sed "s|=\"\./|=\"./$build/|g" "$page" > "$build/$page"
+    mv "$build/$page" "$page"
+done
 
 # What sw.js keeps: every file's address, and its checksum in the form that browsers check (bytes in base64).
 files=$(find . -type f ! -name sw.js | LC_ALL=C sort)

@@ -24,6 +24,7 @@
 /** A page from the network that takes longer than this, in ms, comes from the cache. */
 const PATIENCE = 3000;
 const PAGE = "./";
+const TEXT = "./text.html";
 // Caches are shared by all that is published under the same origin.
 const OURS = `tautline ${registration.scope} `;
 const CACHE = OURS + BUILD;
@@ -35,7 +36,8 @@ addEventListener("fetch", (event) => {
     if (method !== "GET" || !url.startsWith(registration.scope)) return;
     if (mode !== "navigate") return event.respondWith(file(event.request));
     const name = url.slice(registration.scope.length).split(/[?#]/)[0];
-    if (name === "" || name === "index.html") event.respondWith(page(event.request));
+    if (name === "" || name === "index.html") event.respondWith(page(event.request, PAGE));
+    if (name === "text.html") event.respondWith(page(event.request, TEXT));
 });
 
 async function install() {
@@ -47,7 +49,9 @@ async function install() {
         integrity: FILES[address],
         redirect: "error", // a browser refuses pages kept from a redirection
     });
-    await cache.addAll(Object.keys(FILES).filter((address) => address !== PAGE).map(request));
+    await cache.addAll(Object.keys(FILES).filter((address) => address !== PAGE && address !== TEXT).map(request));
+    // Some servers redirect names that end in .html. There the text version needs a network, and the app does not.
+    await cache.add(request(TEXT)).catch(() => undefined);
     await cache.add(request(PAGE));
 }
 
@@ -73,8 +77,9 @@ async function find(address) {
     } catch { /* the storage is blocked or broken */ }
 }
 
-async function page(request) {
-    const kept = await find(PAGE);
+/** The newest of the page or of the text version, which is kept under this address. */
+async function page(request, address) {
+    const kept = await find(address);
     if (!kept) return fetch(request);
     // Not the request itself: a navigation takes no options. Redirections are followed by the browser.
     const online = fetch(request.url, { cache: "no-cache", redirect: "manual" }).catch(() => undefined);

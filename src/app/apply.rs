@@ -46,6 +46,10 @@ impl Tautline {
                 let robot = link::encode(&self.present.document.scenario);
                 context.open_url(eframe::egui::OpenUrl::new_tab(format!("{}{}{robot}", address(), link::MARK)));
             }
+            Command::OpenText => {
+                let robot = link::encode(&self.present.document.scenario);
+                context.open_url(eframe::egui::OpenUrl::same_tab(format!("text.html{}{robot}", link::MARK)));
+            }
             Command::ExplainWord(word) => self.session.word = Some(word),
             Command::Share => self.share(context),
             Command::Undo => {

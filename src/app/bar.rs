@@ -331,6 +331,10 @@ fn more(
                     *open = true;
                 }
             }
+            // On the desktop there is no page, and its controls have names for screen readers.
+            if cfg!(target_arch = "wasm32") && entry(ui, "Text version", None, true) {
+                commands.push(Command::OpenText);
+            }
         });
     });
 }

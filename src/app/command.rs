@@ -42,6 +42,8 @@ pub enum Command {
     BackToFeasible,
     /// Open what a frame shows in a page of its own.
     OpenWhole,
+    /// Go to the text version of the page with the robot on show.
+    OpenText,
     /// Open the card of a word.
     ExplainWord(Word),
     /// Do this check against a known number.

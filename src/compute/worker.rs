@@ -1,5 +1,5 @@
 //! The web worker's side: the engine for a drag, or places for the page's pool. Every worker can do both; the page
-//! gives each one kind of work.
+//! gives each one kind of work. The text version's worker answers its messages, which are text and not bytes.
 
 use std::cell::{Cell, RefCell};
 use std::rc::Rc;
@@ -12,6 +12,7 @@ use super::Engine;
 use super::link::READY;
 use super::pool::PoolWorker;
 use super::protocol::{Incoming, Outgoing};
+use crate::scenario::messages;
 
 /// Serves messages for as long as the page wants.
 ///
@@ -47,7 +48,13 @@ pub fn run_worker() -> Result<(), JsValue> {
     on_slice.forget();
     let outbox = scope.clone();
     let on_message = Closure::<dyn FnMut(MessageEvent)>::new(move |event: MessageEvent| {
-        let bytes = event.data().dyn_into::<Uint8Array>().map(|array| array.to_vec()).unwrap_or_default();
+        let data = event.data();
+        if let Some(request) = data.as_string() {
+            // Posting fails only for what cannot be cloned; text can.
+            let _ = outbox.post_message(&messages::answer(&request).into());
+            return;
+        }
+        let bytes = data.dyn_into::<Uint8Array>().map(|array| array.to_vec()).unwrap_or_default();
         match postcard::from_bytes(&bytes) {
             Ok(Incoming::Request(request)) => engine.borrow_mut().submit(request),
             Ok(Incoming::Task(task)) => pool_worker.borrow_mut().submit(task),

@@ -1,10 +1,26 @@
-//! How a scenario file is laid out for people: a line per field and per cable.
+//! How JSON is laid out: a scenario file for people, with a line per field and per cable; messages on one line.
 
 use std::io;
 
 use serde::Serialize;
 use serde_json::Serializer;
 use serde_json::ser::Formatter;
+
+/// `value` as JSON on one line.
+pub(super) fn compact(value: &impl Serialize) -> String {
+    let mut text = Vec::new();
+    let _ = value.serialize(&mut Serializer::with_formatter(&mut text, Compact));
+    String::from_utf8(text).unwrap_or_default()
+}
+
+/// Writes numbers as messages to people have them: the tables of a second way would take 10 kB of the worker.
+struct Compact;
+
+impl Formatter for Compact {
+    fn write_f64<W: ?Sized + io::Write>(&mut self, writer: &mut W, value: f64) -> io::Result<()> {
+        write!(writer, "{value:?}")
+    }
+}
 
 /// `value` as JSON: the outermost object and the lists in it line by line, everything deeper on one line.
 pub(super) fn pretty(value: &impl Serialize) -> String {

@@ -100,7 +100,13 @@ pub fn decode(text: &str) -> Result<Scenario, LinkError> {
 
 /// Of the version too: a link of a later format whose mark was changed to this one's is damaged.
 fn checksum(fields: &[u8]) -> [u8; 4] {
-    crc32fast::hash(&[&[VERSION as u8], fields].concat()).to_le_bytes()
+    crc32(&[&[VERSION as u8], fields].concat()).to_le_bytes()
+}
+
+/// CRC-32 as zlib computes it, bit by bit: a link is short, and a table would take 16 kB of every program.
+fn crc32(bytes: &[u8]) -> u32 {
+    let shifted = |rest: u32| (rest >> 1) ^ if rest & 1 == 1 { 0xedb8_8320 } else { 0 };
+    !bytes.iter().fold(!0, |rest, &byte| (0..8).fold(rest ^ u32::from(byte), |rest, _| shifted(rest)))
 }
 
 #[derive(Default)]
@@ -258,5 +264,18 @@ impl Reader<'_> {
         let (bytes, rest) = self.0.split_first_chunk()?;
         self.0 = rest;
         Some(*bytes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::crc32;
+
+    #[test]
+    fn the_checksum_is_that_of_zlib() {
+        // The check value of the catalogue of CRC algorithms, and zlib's own of other texts.
+        assert_eq!(crc32(b"123456789"), 0xcbf4_3926);
+        assert_eq!(crc32(b""), 0);
+        assert_eq!(crc32(b"The quick brown fox jumps over the lazy dog"), 0x414f_a339);
     }
 }

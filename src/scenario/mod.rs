@@ -1,9 +1,10 @@
 //! Everything that is JSON: the scenario file, the presets, the analysis report, options; the text in a file, and the
-//! scenario as a link.
+//! scenario as a link; the messages of the text version.
 
 pub mod file;
 mod layout;
 pub mod link;
+pub mod messages;
 pub mod options;
 mod parameter;
 pub mod presets;

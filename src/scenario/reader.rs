@@ -126,6 +126,14 @@ impl<'a> Value<'a> {
         }
     }
 
+    /// The JSON that stands here, whatever it is; empty where there is none.
+    pub(super) fn json(&self) -> &'a str {
+        match self.content {
+            Content::Json(text) => text,
+            Content::Missing | Content::Lost => "",
+        }
+    }
+
     /// Notes that only `allowed` may stand here.
     fn fault(&self, allowed: &str) {
         let value = match self.content {

@@ -30,9 +30,11 @@ function renewed() {
     const build = readdirSync(folder).find((name) => name.startsWith("build-"));
     for (const name of readdirSync(path.join(folder, build))) renameSync(path.join(folder, build, name), path.join(folder, name));
     rmdirSync(path.join(folder, build));
-    const page = path.join(folder, "index.html");
-    const html = readFileSync(page, "utf8").replaceAll(`./${build}/`, "./");
-    writeFileSync(page, html.replace("<title>Tautline</title>", "<title>Tautline renewed</title>"));
+    for (const name of ["index.html", "text.html"]) {
+        const page = path.join(folder, name);
+        const html = readFileSync(page, "utf8").replaceAll(`./${build}/`, "./");
+        writeFileSync(page, html.replace("<title>Tautline</title>", "<title>Tautline renewed</title>"));
+    }
     execFileSync("bash", [SCRIPT], { env: { ...process.env, TRUNK_STAGING_DIR: folder } });
     return folder;
 }
