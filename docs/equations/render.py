@@ -1,4 +1,5 @@
-"""Draws the equations of the app's Theory window: one PNG beside this file for each entry of EQUATIONS.
+"""Draws the equations of the app's Theory window: for each entry of EQUATIONS a PNG to look at, and an .ink
+file with the same pixels for the app, both beside this file.
 
     python3 -m venv venv && venv/bin/pip install matplotlib pillow
     venv/bin/python render.py
@@ -8,6 +9,7 @@ colour of its text. Letters are those of docs/theory.md.
 """
 
 import io
+import itertools
 import pathlib
 import struct
 import zlib
@@ -129,6 +131,20 @@ def png(levels):
     return b"\x89PNG\r\n\x1a\n" + body
 
 
+def runs(levels):
+    """The same as runs of equal pixels, as the app holds it: width and height as 16-bit numbers, high byte first, then
+    a byte for each run: its level in the upper four bits, its length less one in the lower four.
+
+    The page is compressed as a whole, which makes it smaller than pictures that are compressed one by one.
+    """
+    height, width = levels.shape
+    body = bytearray()
+    for level, same in itertools.groupby(levels.flatten().tolist()):
+        length = len(list(same))
+        body += bytes(level << 4 | min(16, length - start) - 1 for start in range(0, length, 16))
+    return struct.pack(">HH", width, height) + bytes(body)
+
+
 def main():
     matplotlib.rcParams["mathtext.fontset"] = "cm"
     total = 0
@@ -139,6 +155,7 @@ def main():
             raise SystemExit(f"{name} is {width:.0f} points wide; allowed are {WIDEST}")
         file = pathlib.Path(__file__).with_name(f"{name}.png")
         file.write_bytes(png(ink))
+        file.with_suffix(".ink").write_bytes(runs(ink))
         total += file.stat().st_size
         print(f"{name}: {width:.0f} x {ink.shape[0] / SCALE:.0f} points, {file.stat().st_size} bytes")
     print(f"{total} bytes together")

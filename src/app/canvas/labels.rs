@@ -77,7 +77,7 @@ pub fn beside(point: Pos2, towards: Vec2, gap: f32, size: Vec2) -> Rect {
     Rect::from_center_size(point + towards * (gap + reach), size)
 }
 
-/// `LabelRoom` for words of this size beside a line, at these parts of its length: first on the side that points up.
+/// Places for words of this size beside a line, at these parts of its length: first on the side that points up.
 pub fn along(line: &[Pos2], parts: &[f32], gap: f32, size: Vec2) -> Vec<Rect> {
     let lengths: Vec<f32> = line.windows(2).map(|ends| (ends[1] - ends[0]).length()).collect();
     let whole: f32 = lengths.iter().sum();

@@ -97,6 +97,9 @@ pub fn note_on_modes(answers: &Answers) -> Option<&'static str> {
     }
 }
 
+/// What is said beside eigenvalues and modes where the present pose cannot rest.
+pub const KEPT: &str = "Kept from the last pose that can rest.";
+
 /// Where the last pose was that can rest, where the present one cannot: all that is about a pose is from there, and grey.
 pub fn kept_from(answers: &Answers) -> Option<String> {
     let (pose, _) = answers.last_pose().filter(|_| answers.pose_failed())?;

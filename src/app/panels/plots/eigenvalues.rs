@@ -97,7 +97,7 @@ fn plot(
     let trace = common::study(Topic::Campbell, facts);
     let speed = critical.map(|critical| common::speed(facts, critical));
     let caption = if grey {
-        Some("Kept from the last pose that can rest.".to_owned())
+        Some(common::KEPT.to_owned())
     } else {
         speed.as_ref().filter(|_| trace.is_some()).map(|speed| format!("Grey: the way from rest to {speed} m/s."))
     };

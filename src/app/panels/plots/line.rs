@@ -180,6 +180,8 @@ impl Drawing<'_> {
         let top = 1.14 * of_critical.max(highest(&waves).min(1.3 * of_critical)).max(now.min(3.0 * of_critical));
         let mut chart = Chart::new(ui, outer, rect, [x, Axis::linear([0.0, top], [rect.bottom(), rect.top()])]);
         let tokens = chart.tokens;
+        // Grey is what belongs to an earlier state. The study does not depend on where on the line the pose is. So it
+        // stays current, and keeps its colours, where the pose has no equilibrium.
         let shade = |colour| if *current { colour } else { tokens.mute };
         let words = |colour| if *current { colour } else { tokens.weak };
         self.hatch(&chart);

@@ -29,7 +29,7 @@ pub fn ui(ui: &mut Ui, Facts { answers, settings, pinned, mode: choice, .. }: Fa
     let Some(pose) = with_modes(answers) else { return };
     let grey = answers.pose_failed();
     if grey {
-        common::say(ui, "Kept from the last pose that can rest.");
+        common::say(ui, common::KEPT);
     }
     let (hertz, unit) = settings.hertz();
     let chosen = answers.shape().filter(|shape| !shape.is_critical).map(|shape| shape.eigenvalue);

@@ -2,8 +2,6 @@
 
 mod page;
 
-use std::io::Cursor;
-
 use eframe::egui::{Color32, ColorImage, Context, Image, TextureHandle, TextureOptions, Ui};
 
 use page::{PAGE, Part};
@@ -68,8 +66,8 @@ fn equation(ui: &mut Ui, words: &str, picture: Option<&TextureHandle>) {
 
 /// Makes the picture of an equation as fine as the screen is, but no finer than it is drawn.
 fn upload(context: &Context, part: &Part, pixels_per_point: f32) -> Option<TextureHandle> {
-    let Part::Equation { name, png, .. } = part else { return None };
-    let (size, ink) = mask(png)?;
+    let Part::Equation { name, picture, .. } = part else { return None };
+    let (size, ink) = mask(picture)?;
     let factor = (pixels_per_point / SCALE).min(1.0);
     // Positive, and far below 2^24.
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
@@ -109,16 +107,17 @@ fn covered(k: usize, count: usize, pixels: usize) -> Vec<(usize, f32)> {
     (first..last).map(|x| (x, share(x))).collect()
 }
 
-/// Size and ink of a gray PNG, a byte for each pixel.
-fn mask(png: &[u8]) -> Option<([usize; 2], Vec<u8>)> {
-    let mut decoder = png::Decoder::new(Cursor::new(png));
-    // Four bits become eight.
-    decoder.set_transformations(png::Transformations::EXPAND);
-    let mut reader = decoder.read_info().ok()?;
-    let mut ink = vec![0; reader.output_buffer_size()?];
-    let info = reader.next_frame(&mut ink).ok()?;
-    let size = [usize::try_from(info.width).ok()?, usize::try_from(info.height).ok()?];
-    (info.color_type == png::ColorType::Grayscale && ink.len() == size[0] * size[1]).then_some((size, ink))
+/// Size and ink of an equation's picture, a byte for each pixel; `None` where the bytes are no picture.
+///
+/// The bytes are width and height as 16-bit numbers, high byte first, then a byte for each run of equal pixels: the ink
+/// in the upper four bits, the length of the run less one in the lower four. docs/equations/render.py writes them.
+fn mask(picture: &[u8]) -> Option<([usize; 2], Vec<u8>)> {
+    let ([a, b, c, d], runs) = picture.split_first_chunk()?;
+    let size = [[*a, *b], [*c, *d]].map(|pixels| usize::from(u16::from_be_bytes(pixels)));
+    // Four bits become eight: 15 is 255.
+    let run = |run: &u8| std::iter::repeat_n(17 * (run >> 4), usize::from(run & 15) + 1);
+    let ink: Vec<u8> = runs.iter().flat_map(run).collect();
+    (!ink.is_empty() && ink.len() == size[0] * size[1]).then_some((size, ink))
 }
 
 #[cfg(test)]
@@ -127,10 +126,10 @@ mod tests {
 
     #[test]
     fn every_equation_is_a_picture_that_fits_a_phone() {
-        let (mut total, mut count) = (0, 0);
+        let mut count = 0;
         for part in PAGE {
-            let Part::Equation { name, words, png } = part else { continue };
-            let ([width, height], ink) = mask(png).unwrap_or_else(|| panic!("{name} cannot be read"));
+            let Part::Equation { name, words, picture } = part else { continue };
+            let ([width, height], ink) = mask(picture).unwrap_or_else(|| panic!("{name} cannot be read"));
             assert!(width as f32 / SCALE <= 320.0, "{name} is {width} pixels wide");
             assert!(height as f32 / SCALE <= 130.0, "{name} is {height} pixels high");
             // Full ink and none; what lies between is the edges.
@@ -140,10 +139,27 @@ mod tests {
             let (full, none) = (share(255..=255), share(0..=0));
             assert!(full > 0.005 && none > 0.5, "{name}: {full} {none}");
             assert!(words.len() > 10, "{name}: {words}");
-            total += png.len();
             count += 1;
         }
-        assert!(count > 15 && total <= 60_000, "{count} pictures, {total} bytes");
+        assert!(count > 15, "{count} pictures");
+    }
+
+    /// The PNGs are what people look at in the folder.
+    #[test]
+    fn every_picture_has_the_pixels_of_its_png() {
+        for part in PAGE {
+            let Part::Equation { name, picture, .. } = part else { continue };
+            let path = format!("{}/docs/equations/{name}.png", env!("CARGO_MANIFEST_DIR"));
+            let file = std::fs::File::open(&path).expect("a PNG");
+            let mut decoder = png::Decoder::new(std::io::BufReader::new(file));
+            // Four bits become eight.
+            decoder.set_transformations(png::Transformations::EXPAND);
+            let mut reader = decoder.read_info().expect("a PNG");
+            let mut ink = vec![0; reader.output_buffer_size().expect("a size")];
+            let info = reader.next_frame(&mut ink).expect("pixels");
+            let size = [info.width, info.height].map(|pixels| usize::try_from(pixels).expect("a size"));
+            assert!(mask(picture) == Some((size, ink)), "{name}: run docs/equations/render.py");
+        }
     }
 
     #[test]
@@ -154,8 +170,8 @@ mod tests {
         let same: Vec<u8> = (0..12).collect();
         assert_eq!(shrink(&same, [4, 3], [4, 3]), same);
         for part in PAGE {
-            let Part::Equation { name, png, .. } = part else { continue };
-            let (size, ink) = mask(png).expect("a picture");
+            let Part::Equation { name, picture, .. } = part else { continue };
+            let (size, ink) = mask(picture).expect("a picture");
             let target = size.map(|pixels| pixels * 2 / 5);
             let mean = |ink: &[u8]| ink.iter().map(|value| f32::from(*value)).sum::<f32>() / ink.len() as f32;
             let small = shrink(&ink, size, target);
@@ -167,7 +183,9 @@ mod tests {
 
     #[test]
     fn what_is_no_picture_is_refused() {
-        assert_eq!(mask(b"no PNG"), None);
-        assert_eq!(mask(&[]), None);
+        assert_eq!(mask(&[0, 3, 0, 2, 0xf0, 0x04]), Some(([3, 2], vec![255, 0, 0, 0, 0, 0])));
+        for bytes in [&[][..], &[0, 3, 0], &[0, 0, 0, 0], &[0, 3, 0, 2, 0xf0], &[0, 3, 0, 2, 0xf0, 0x05]] {
+            assert_eq!(mask(bytes), None, "{bytes:?}");
+        }
     }
 }

@@ -14,8 +14,8 @@ pub enum Part {
         name: &'static str,
         /// What it says, for those who cannot see it.
         words: &'static str,
-        /// Its picture.
-        png: &'static [u8],
+        /// Its picture, as [`mask`](super::mask) reads it.
+        picture: &'static [u8],
     },
 }
 
@@ -26,7 +26,7 @@ macro_rules! equation {
         Part::Equation {
             name: $name,
             words: $words,
-            png: include_bytes!(concat!("../../../../docs/equations/", $name, ".png")),
+            picture: include_bytes!(concat!("../../../../docs/equations/", $name, ".ink")),
         }
     };
 }
