@@ -17,7 +17,7 @@
 use std::error::Error;
 use std::io::{self, Write};
 
-use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2};
+use tautline::robot::{Cable, CableMaterial, Damping, Linearisation, RobotSpec, Strain, TensionLaw};
 use tautline::stability::Outcome;
 use tautline::{LocalProblem, Motion, Robot};
 
@@ -33,14 +33,11 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// # Errors
 /// A robot or a motion that is not physical, a pose without a taut equilibrium, an output that takes nothing.
 pub fn write(out: &mut impl Write) -> Result<(), Box<dyn Error>> {
-    let cable = |x, y, tension| Cable { anchor: Vec2::new(x, y), tension };
+    let cable = |x, y, tension| Cable::new([x, y], tension);
     // `Robot::new` checks all of it and names every fault: whatever is a `Robot` is physical. SI units everywhere.
     let robot = Robot::new(RobotSpec {
         gravity: 9.81,
-        youngs_modulus: 30e9,
-        area: 0.7e-6,
-        mass_per_length: 0.7e-3,
-        strain: Strain::Green,
+        material: CableMaterial { youngs_modulus: 30e9, area: 0.7e-6, mass_per_length: 0.7e-3, strain: Strain::Green },
         platform_mass: 1.5,
         // The upper two cables hold the platform. The lower two have winches that keep a constant tension.
         cables: vec![

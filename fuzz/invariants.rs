@@ -14,7 +14,7 @@ use tautline::compute::protocol::{
     Batch, Incoming, Job, ModeChoice, Outgoing, Reply, Request, StudyJob, Task, Update, Which,
 };
 use tautline::compute::{Engine, PoolWorker};
-use tautline::robot::{Faults, Linearisation, Strain};
+use tautline::robot::{Faults, Linearisation, OwnMaterial, Strain};
 use tautline::scenario::link::{self, LinkError};
 use tautline::scenario::report::StatusReport;
 use tautline::scenario::{Report, Scenario, presets};
@@ -64,11 +64,11 @@ pub fn link(bytes: &[u8]) -> bool {
         Err(LinkError::NotPhysical(faults)) => told(&faults),
         Err(LinkError::Damaged) => false,
         Err(LinkError::Newer) => {
-            assert!(text.contains(|c| ('2'..='9').contains(&c)), "{text}");
+            assert!(text.contains(|c| ('3'..='9').contains(&c)), "{text}");
             false
         }
     };
-    let sealed = read(&sealed(bytes));
+    let sealed = [read(&sealed(FIRST, bytes)), read(&sealed(SECOND, bytes))].contains(&true);
     std::str::from_utf8(bytes).is_ok_and(read) || sealed
 }
 
@@ -217,9 +217,20 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
         let mut odd = scenario.clone();
         odd.name = None;
         (odd.cable.strain, odd.linearisation) = (Strain::Engineering, Linearisation::Tangent);
+        odd.cables[0].cable.area = Some(1e-4);
+        odd.cables[2].cable = OwnMaterial {
+            youngs_modulus: Some(2e11),
+            area: Some(1.0 / 3e5),
+            mass_per_length: Some(0.07),
+            strain: Some(Strain::Green),
+        };
         (odd.motion.position, odd.motion.direction) = ([-0.0, f64::MIN_POSITIVE], [1e200, -1.0 / 3.0]);
         add("scenario", "-odd", odd.to_json().into_bytes());
         add("link", "-odd", fields(&odd));
+        // Computed as well: of another material, but as small as the others.
+        odd.elements_per_cable = 3;
+        odd.motion = scenario.motion;
+        add("analysis", "-own", fields(&odd));
         // Small, and of every robot another study.
         scenario.elements_per_cable = 3;
         let (robot, motion) = scenario.to_robot().unwrap();
@@ -260,7 +271,10 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
 /// A scenario that was accepted is physical, and neither file nor link loses a bit of it.
 fn survives(scenario: &Scenario) -> bool {
     let (robot, motion) = scenario.to_robot().unwrap();
-    finite(&(&robot, motion, robot.axial_stiffness(), robot.weight_per_length()));
+    finite(&(&robot, motion));
+    for cable in 0..robot.cables.len() {
+        finite(&(robot.axial_stiffness(cable), robot.weight_per_length(cable)));
+    }
     assert!((motion.direction().norm() - 1.0).abs() < 1e-15, "{motion:?}");
     let json = scenario.to_json();
     for again in [Scenario::from_json(&json).unwrap(), link::decode(&link::encode(scenario)).unwrap()] {
@@ -303,10 +317,14 @@ fn is_finite(text: &str) -> bool {
     text.split(|c: char| !c.is_alphanumeric()).all(|word| !["NaN", "inf", "infinity"].contains(&word))
 }
 
-/// A link with these fields.
-fn sealed(fields: &[u8]) -> String {
-    let sum = crc32fast::hash(&[b"1", fields].concat());
-    format!("1{}", BASE64_URL_SAFE_NO_PAD.encode([fields, &sum.to_le_bytes()].concat()))
+/// The mark of a link's version; in the second cables may have a material of their own.
+const FIRST: &str = "1";
+const SECOND: &str = "2";
+
+/// A link of this version with these fields.
+fn sealed(version: &str, fields: &[u8]) -> String {
+    let sum = crc32fast::hash(&[version.as_bytes(), fields].concat());
+    format!("{version}{}", BASE64_URL_SAFE_NO_PAD.encode([fields, &sum.to_le_bytes()].concat()))
 }
 
 /// The fields of a scenario's link.
@@ -316,9 +334,10 @@ fn fields(scenario: &Scenario) -> Vec<u8> {
     bytes
 }
 
-/// The scenario with these fields of a link, if it is one and computed quickly.
+/// The scenario with these fields of a link of either version, if it is one and computed quickly.
 fn small(fields: &[u8]) -> Option<Scenario> {
-    link::decode(&sealed(fields)).ok().filter(is_small)
+    let read = |version| link::decode(&sealed(version, fields)).ok();
+    read(FIRST).or_else(|| read(SECOND)).filter(is_small)
 }
 
 fn is_small(scenario: &Scenario) -> bool {

@@ -67,6 +67,69 @@ impl TensionLaw {
     }
 }
 
+/// What a cable is made of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CableMaterial {
+    /// Young's modulus E, in Pa.
+    pub youngs_modulus: f64,
+    /// Cross-section A, in m².
+    pub area: f64,
+    /// Mass μ per unstretched length, in kg/m.
+    pub mass_per_length: f64,
+    /// The strain measure.
+    pub strain: Strain,
+}
+
+impl CableMaterial {
+    /// Its numbers, each with its field's name in a scenario file.
+    fn numbers(&self) -> [(&'static str, f64); 3] {
+        let Self { youngs_modulus, area, mass_per_length, .. } = *self;
+        [("youngs_modulus", youngs_modulus), ("area", area), ("mass_per_length", mass_per_length)]
+    }
+
+    /// EA in newtons.
+    pub fn axial_stiffness(&self) -> f64 {
+        self.youngs_modulus * self.area
+    }
+}
+
+/// What one cable has of its own in the place of the material that all cables share; what is `None` is shared.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct OwnMaterial {
+    /// Young's modulus E, in Pa.
+    pub youngs_modulus: Option<f64>,
+    /// Cross-section A, in m².
+    pub area: Option<f64>,
+    /// Mass μ per unstretched length, in kg/m.
+    pub mass_per_length: Option<f64>,
+    /// The strain measure.
+    pub strain: Option<Strain>,
+}
+
+impl OwnMaterial {
+    /// The numbers that it has, each with its field's name in a scenario file.
+    fn numbers(&self) -> impl Iterator<Item = (&'static str, f64)> + use<> {
+        let Self { youngs_modulus, area, mass_per_length, .. } = *self;
+        let all = [("youngs_modulus", youngs_modulus), ("area", area), ("mass_per_length", mass_per_length)];
+        all.into_iter().filter_map(|(name, value)| Some((name, value?)))
+    }
+
+    /// Whether all of it is shared.
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// What the cable is made of where the others share `common`.
+    pub fn over(&self, common: CableMaterial) -> CableMaterial {
+        CableMaterial {
+            youngs_modulus: self.youngs_modulus.unwrap_or(common.youngs_modulus),
+            area: self.area.unwrap_or(common.area),
+            mass_per_length: self.mass_per_length.unwrap_or(common.mass_per_length),
+            strain: self.strain.unwrap_or(common.strain),
+        }
+    }
+}
+
 /// One cable: from the platform to a fixed winch point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cable {
@@ -74,6 +137,15 @@ pub struct Cable {
     pub anchor: Vec2,
     /// What sets its tension.
     pub tension: TensionLaw,
+    /// What it has of its own in the place of the robot's cable material.
+    pub own: OwnMaterial,
+}
+
+impl Cable {
+    /// A cable to the winch at `anchor` (m), made of what all cables share.
+    pub fn new(anchor: impl Into<Vec2>, tension: TensionLaw) -> Self {
+        Self { anchor: anchor.into(), tension, own: OwnMaterial::default() }
+    }
 }
 
 /// Damping in proportion to mass (α, 1/s) and to elastic stiffness (β, s): αM + βK.
@@ -90,14 +162,8 @@ pub struct Damping {
 pub struct RobotSpec {
     /// Gravitational acceleration g, downward, in m/s².
     pub gravity: f64,
-    /// Young's modulus E of the cables, in Pa.
-    pub youngs_modulus: f64,
-    /// Cross-section A of the cables, in m².
-    pub area: f64,
-    /// Mass μ of the cables per unstretched length, in kg/m.
-    pub mass_per_length: f64,
-    /// The cables' strain measure.
-    pub strain: Strain,
+    /// What the cables are made of, unless one has something of its own: [`Cable::own`].
+    pub material: CableMaterial,
     /// Mass m of the platform, in kg.
     pub platform_mass: f64,
     /// The cables, in the order of their numbers.
@@ -157,7 +223,7 @@ pub enum Allowed {
     /// A whole number of this range.
     Whole(std::ops::RangeInclusive<usize>),
     /// A number whose products with those at these paths are within the range of floating-point numbers.
-    ProductsWith(&'static [&'static str]),
+    ProductsWith(Vec<String>),
     /// Another point than the anchor of this cable (0-based).
     OtherThanAnchor(usize),
     /// Something else, in words.
@@ -172,12 +238,10 @@ impl fmt::Display for Allowed {
             Self::NotNegative { instead: "" } => f.write_str("a finite number, 0 or more"),
             Self::NotNegative { instead } => write!(f, "a finite number, 0 or more ({instead})"),
             Self::Whole(range) => write!(f, "a whole number from {} to {}", range.start(), range.end()),
-            Self::ProductsWith([path]) => {
-                write!(f, "a value whose product with {path} is within the range of floating-point numbers")
-            }
             Self::ProductsWith(paths) => {
+                let (products, are) = if paths.len() == 1 { ("product", "is") } else { ("products", "are") };
                 let paths = paths.join(" and ");
-                write!(f, "a value whose products with {paths} are within the range of floating-point numbers")
+                write!(f, "a value whose {products} with {paths} {are} within the range of floating-point numbers")
             }
             Self::OtherThanAnchor(cable) => write!(f, "a point that differs from cables[{cable}].anchor"),
             Self::Words(words) => f.write_str(words),
@@ -272,7 +336,8 @@ impl Robot {
     /// Validates `spec`.
     ///
     /// # Errors
-    /// All faults at once: E, A, μ, m not positive (or EA or a mass beyond the range of numbers), negative
+    /// All faults at once: E, A, μ, m not positive, own values of a cable included (or EA or a mass beyond the range of
+    /// numbers), negative
     /// gravity or damping, a number that is not finite, fewer than 3 or more than 8 cables, not exactly two
     /// at equilibrium, a constant tension that is not positive, coincident anchors, elements outside 2..=200.
     pub fn new(spec: RobotSpec) -> Result<Self, Faults> {
@@ -285,9 +350,9 @@ impl Robot {
         let not_negative = || Allowed::NotNegative { instead: "" };
         let positive = || Allowed::Positive;
         check("gravity", spec.gravity, spec.gravity >= 0.0, not_negative());
-        check("cable.youngs_modulus", spec.youngs_modulus, spec.youngs_modulus > 0.0, positive());
-        check("cable.area", spec.area, spec.area > 0.0, positive());
-        check("cable.mass_per_length", spec.mass_per_length, spec.mass_per_length > 0.0, positive());
+        for (name, value) in spec.material.numbers() {
+            check(&format!("cable.{name}"), value, value > 0.0, positive());
+        }
         check("platform.mass", spec.platform_mass, spec.platform_mass > 0.0, positive());
         check("damping.alpha", spec.damping.alpha, spec.damping.alpha >= 0.0, not_negative());
         check("damping.beta", spec.damping.beta, spec.damping.beta >= 0.0, not_negative());
@@ -308,6 +373,9 @@ impl Robot {
                         }
                     }
                 }
+            }
+            for (name, value) in cable.own.numbers() {
+                check(&format!("cables[{i}].cable.{name}"), value, value > 0.0, positive());
             }
         }
         if faults.is_empty() {
@@ -331,14 +399,21 @@ impl Robot {
         (0..self.spec.cables.len()).filter(|i| !self.equilibrium.contains(i))
     }
 
-    /// EA in newtons.
-    pub fn axial_stiffness(&self) -> f64 {
-        self.spec.youngs_modulus * self.spec.area
+    /// What a cable (0-based) is made of: its own values, and for the rest those that all cables share. There is no other
+    /// place to ask.
+    pub fn material_of(&self, cable: usize) -> CableMaterial {
+        let common = self.spec.material;
+        self.spec.cables.get(cable).map_or(common, |cable| cable.own.over(common))
     }
 
-    /// The weight of cable per unstretched length, μ g, in N/m.
-    pub fn weight_per_length(&self) -> f64 {
-        self.spec.mass_per_length * self.spec.gravity
+    /// EA of a cable (0-based), in newtons.
+    pub fn axial_stiffness(&self, cable: usize) -> f64 {
+        self.material_of(cable).axial_stiffness()
+    }
+
+    /// The weight of a cable (0-based) per unstretched length, μ g, in N/m.
+    pub fn weight_per_length(&self, cable: usize) -> f64 {
+        self.material_of(cable).mass_per_length * self.spec.gravity
     }
 }
 
@@ -350,16 +425,42 @@ impl std::ops::Deref for Robot {
     }
 }
 
-/// Products of legal numbers that leave the range of floating point.
+/// Products of legal numbers that leave the range of floating point. Of a product that has an own value in it, that one is
+/// at fault.
 fn check_products(spec: &RobotSpec, faults: &mut Vec<Fault>) {
-    let stiffness = spec.youngs_modulus * spec.area;
-    if !stiffness.is_normal() {
-        let allowed = Allowed::ProductsWith(&["cable.area"]);
-        faults.push(Fault::number("cable.youngs_modulus", spec.youngs_modulus, allowed));
+    let products = |paths: &[&str]| Allowed::ProductsWith(paths.iter().map(ToString::to_string).collect());
+    let common = spec.material;
+    if !common.axial_stiffness().is_normal() {
+        faults.push(Fault::number("cable.youngs_modulus", common.youngs_modulus, products(&["cable.area"])));
     }
-    if !(spec.mass_per_length * spec.gravity).is_finite() || !(spec.platform_mass * spec.gravity).is_finite() {
-        let allowed = Allowed::ProductsWith(&["cable.mass_per_length", "platform.mass"]);
+    if !(common.mass_per_length * spec.gravity).is_finite() || !(spec.platform_mass * spec.gravity).is_finite() {
+        let allowed = products(&["cable.mass_per_length", "platform.mass"]);
         faults.push(Fault::number("gravity", spec.gravity, allowed));
+    }
+    for (i, OwnMaterial { youngs_modulus, area, mass_per_length, .. }) in
+        spec.cables.iter().map(|cable| cable.own).enumerate()
+    {
+        let own = |name| format!("cables[{i}].cable.{name}");
+        let stiffness = youngs_modulus.unwrap_or(common.youngs_modulus) * area.unwrap_or(common.area);
+        if !stiffness.is_normal() {
+            match (youngs_modulus, area) {
+                (Some(modulus), Some(_)) => {
+                    let allowed = products(&[&own("area")]);
+                    faults.push(Fault::number(own("youngs_modulus"), modulus, allowed));
+                }
+                (Some(modulus), None) => {
+                    faults.push(Fault::number(own("youngs_modulus"), modulus, products(&["cable.area"])));
+                }
+                (None, Some(area)) => {
+                    faults.push(Fault::number(own("area"), area, products(&["cable.youngs_modulus"])));
+                }
+                // Said of the material that all cables share.
+                (None, None) => {}
+            }
+        }
+        if let Some(mass) = mass_per_length.filter(|mass| !(mass * spec.gravity).is_finite()) {
+            faults.push(Fault::number(own("mass_per_length"), mass, products(&["gravity"])));
+        }
     }
 }
 
@@ -465,13 +566,10 @@ pub fn paper() -> Result<Robot, Faults> {
 /// What [`paper`] is made of.
 pub fn paper_spec() -> RobotSpec {
     let stiffening = |slope| TensionLaw::Hypot { horizontal: [50.0, slope, 0.0], vertical: [45.0, 0.0, 0.0] };
-    let cable = |x, y, tension| Cable { anchor: Vec2::new(x, y), tension };
+    let cable = |x, y, tension| Cable::new([x, y], tension);
     RobotSpec {
         gravity: 9.81,
-        youngs_modulus: 125e6,
-        area: 5e-5,
-        mass_per_length: 0.4,
-        strain: Strain::Green,
+        material: CableMaterial { youngs_modulus: 125e6, area: 5e-5, mass_per_length: 0.4, strain: Strain::Green },
         platform_mass: 2.0,
         cables: vec![
             cable(-10.0, 5.0, TensionLaw::Equilibrium),

@@ -8,7 +8,7 @@ use common::{close, list, number, numbers, read, reference_files};
 use serde_json::Value;
 use tautline::Robot;
 use tautline::mechanics::{self, CableShape, Hub, LengthRates, Vibration};
-use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2};
+use tautline::robot::{Cable, CableMaterial, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2};
 use tautline::stability::Eigenproblem;
 
 /// One cable from the platform to an anchor.
@@ -27,16 +27,16 @@ impl Hanging {
     fn with_tension(&self, elements: usize, tension: f64) -> (CableShape, Vibration) {
         let back = (self.platform - self.anchor).normalize();
         let aside = Vec2::new(-back.y, back.x);
-        let holding =
-            |sign: f64| Cable { anchor: self.platform + back + aside * sign, tension: TensionLaw::Equilibrium };
-        let cables =
-            vec![holding(1.0), holding(-1.0), Cable { anchor: self.anchor, tension: TensionLaw::Constant(tension) }];
+        let holding = |sign: f64| Cable::new(self.platform + back + aside * sign, TensionLaw::Equilibrium);
+        let cables = vec![holding(1.0), holding(-1.0), Cable::new(self.anchor, TensionLaw::Constant(tension))];
         let robot = Robot::new(RobotSpec {
             gravity: self.gravity,
-            youngs_modulus: self.axial_stiffness,
-            area: 1.0,
-            mass_per_length: self.mass_per_length,
-            strain: Strain::Engineering,
+            material: CableMaterial {
+                youngs_modulus: self.axial_stiffness,
+                area: 1.0,
+                mass_per_length: self.mass_per_length,
+                strain: Strain::Engineering,
+            },
             platform_mass: 1e-3,
             cables,
             elements,

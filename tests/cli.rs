@@ -9,6 +9,7 @@ use std::process::{Command, Stdio};
 use common::shell::{File, refuse, succeed};
 use serde_json::Value;
 use tautline::cli;
+use tautline::robot::Strain;
 use tautline::scenario::{Report, Scenario, link, presets};
 
 fn analyze(input: &str, more: &[&str]) -> Value {
@@ -97,6 +98,15 @@ fn text_tells_people_what_matters() {
         "freezes time",
     ] {
         assert!(text.contains(part), "{part:?} is not in\n{text}");
+    }
+    assert!(!text.contains("alone"), "{text}");
+    let mut own = paper();
+    own.cables[1].cable.area = Some(1e-5);
+    own.cables[3].cable.mass_per_length = Some(0.2);
+    own.cables[3].cable.strain = Some(Strain::Engineering);
+    let text = succeed(&["analyze", "-"], &own.to_json());
+    for line in ["\nCable 2 alone: EA = 1250 N\n", "\nCable 4 alone: 0.2 kg/m, engineering strain\n"] {
+        assert!(text.contains(line), "{line:?} is not in\n{text}");
     }
     let mut fast = paper();
     fast.motion.speed = 12.0;

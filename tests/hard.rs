@@ -362,8 +362,8 @@ fn near_the_slack_limit() {
         let i = robot.prescribed().next().expect("a prescribed cable");
         let chord = robot.cables[i].anchor - motion.position();
         // In units in which a cable as long as the chord weighs 100.
-        let unit = 100.0 / (robot.weight_per_length() * chord.norm());
-        let Some((length, least)) = Hung::of(robot).in_units(unit).least_tension(chord) else {
+        let unit = 100.0 / (robot.weight_per_length(i) * chord.norm());
+        let Some((length, least)) = Hung::of(robot, i).in_units(unit).least_tension(chord) else {
             return tally.count("limit not known");
         };
         let with_tension = |tension: f64| {
@@ -428,7 +428,7 @@ fn check_border(robot: &Robot, mut inside: Vec2, mut outside: Vec2) -> &'static 
     match infeasible {
         Infeasible::WouldPush { .. } => {
             let statics = mechanics::solve(robot, inside).expect("inside");
-            let load = load(robot, robot.prescribed().map(|i| &statics.cables[i]));
+            let load = load(robot, |i| &statics.cables[i]);
             let tensions = straight_tensions(robot, inside, load);
             let weaker = tensions[0].min(tensions[1]) / tensions[0].max(tensions[1]);
             let [a, b] = pair(robot).map(|i| (robot.cables[i].anchor - inside).normalize());

@@ -5,9 +5,9 @@ use std::fs;
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
-use tautline::robot::{Damping, Faults, Linearisation, Strain, TensionLaw};
+use tautline::robot::{Damping, Faults, Linearisation, OwnMaterial, Strain, TensionLaw};
+use tautline::scenario::json::{Cable, Material, Motion, Platform};
 use tautline::scenario::link::{self, LinkError};
-use tautline::scenario::v1::{Cable, Material, Motion, Platform, Schema};
 use tautline::scenario::{Scenario, presets};
 
 /// The signs of base64url in the order of their values.
@@ -19,7 +19,16 @@ fn paper() -> Scenario {
 
 /// A link as the format's description has it, around any bytes: by other means than the library's.
 fn around(fields: &[u8]) -> String {
-    let crc = [b"1", fields]
+    of_version("1", fields)
+}
+
+/// The same of the second version, in which cables may have a material of their own.
+fn around_second(fields: &[u8]) -> String {
+    of_version("2", fields)
+}
+
+fn of_version(mark: &str, fields: &[u8]) -> String {
+    let crc = [mark.as_bytes(), fields]
         .concat()
         .iter()
         .fold(!0_u32, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| (crc >> 1) ^ (0xedb8_8320 * (crc & 1))));
@@ -29,7 +38,7 @@ fn around(fields: &[u8]) -> String {
         let value = (0..6).fold(0, |value, i| 2 * value + bits.get(i).copied().unwrap_or(0));
         char::from(SIGNS[usize::from(value)])
     };
-    ["1".to_owned(), bits.chunks(6).map(sign).collect()].concat()
+    [mark.to_owned(), bits.chunks(6).map(sign).collect()].concat()
 }
 
 /// The paper's robot by hand. Up to the count of cables: named, Green, secant; 9.81 as z = 2 · 981 and k = 3, so 15699.
@@ -63,6 +72,46 @@ fn the_format_is_the_one_described() {
     assert_eq!(link::decode(&by_hand), Ok(paper()));
 }
 
+/// The paper's robot in the second version: what cables have of their own stands behind their tensions.
+#[test]
+fn own_materials_are_in_the_second_version() {
+    let mut scenario = paper();
+    // E = 2e8, so m = 2 with an exponent of 8: beyond those that k tells.
+    scenario.cables[0].cable.youngs_modulus = Some(2e8);
+    scenario.cables[2].cable = OwnMaterial {
+        area: Some(3e-5),
+        mass_per_length: Some(0.2),
+        strain: Some(Strain::Engineering),
+        ..OwnMaterial::default()
+    };
+    scenario.cables[3].cable.strain = Some(Strain::Green);
+    let own: [&[u8]; 4] = [&[1, 0x27, 8], &[0], &[2 + 4 + 16, 0x30, 0x24], &[8]];
+    let cables: Vec<Vec<u8>> = CABLES.iter().zip(own).map(|(cable, own)| [cable, own].concat()).collect();
+    let cables: Vec<&[u8]> = cables.iter().map(Vec::as_slice).collect();
+    let by_hand = around_second(&with_cables(&[4], &cables));
+    assert_eq!(link::encode(&scenario), by_hand);
+    assert_eq!(link::decode(&by_hand), Ok(scenario.clone()));
+    // The same bytes as if they were of the first version are no scenario, nor is a mark that was changed.
+    assert_eq!(link::decode(&around(&with_cables(&[4], &cables))), Err(LinkError::Damaged));
+    assert_eq!(link::decode(&format!("1{}", &by_hand[1..])), Err(LinkError::Damaged));
+    // A scenario without own materials may be said in the second version; it is written in the first.
+    let none: Vec<Vec<u8>> = CABLES.iter().map(|cable| [cable, &[0_u8][..]].concat()).collect();
+    let none: Vec<&[u8]> = none.iter().map(Vec::as_slice).collect();
+    assert_eq!(link::decode(&around_second(&with_cables(&[4], &none))), Ok(paper()));
+    assert!(link::encode(&paper()).starts_with('1'));
+    // Two strain laws at once, a flag that means nothing, and a number that is not there.
+    for wrong in [&[24_u8][..], &[32], &[255], &[1]] {
+        let mut cables = none.clone();
+        let last = [CABLES[3], wrong].concat();
+        cables[3] = &last;
+        assert_eq!(link::decode(&around_second(&with_cables(&[4], &cables))), Err(LinkError::Damaged), "{wrong:?}");
+    }
+    // What is not physical has the path that it has in a file.
+    scenario.cables[2].cable.area = Some(-1.0);
+    let faults = not_physical(&link::encode(&scenario));
+    assert_eq!((faults.list()[0].path.as_str(), faults.list().len()), ("cables[2].cable.area", 1));
+}
+
 /// Scenarios and their links as they were when the format was made: fixtures, never to be renewed.
 #[test]
 fn links_made_long_ago_stay_readable() {
@@ -76,10 +125,12 @@ fn links_made_long_ago_stay_readable() {
             assert_eq!(read_again, scenario, "{}", path.display());
             // Zeros of both signs are equal, their texts are not.
             assert_eq!(read_again.to_json(), scenario.to_json(), "{}", path.display());
+            // What is written today is what was written then.
+            assert_eq!(format!("{}{}", link::MARK, link::encode(&scenario)), link.trim_end(), "{}", path.display());
             read += 1;
         }
     }
-    assert_eq!(read, 7);
+    assert_eq!(read, 8);
 }
 
 #[test]
@@ -101,10 +152,12 @@ fn links_are_short_and_safe_in_an_address() {
 fn every_damage_is_told() {
     let message = LinkError::Damaged.to_string();
     assert!(message.starts_with("This link is damaged: ") && message.lines().count() == 1, "{message}");
-    for scenario in presets::PRESETS.iter().map(presets::Preset::scenario) {
+    let mut own = paper();
+    own.cables[1].cable.area = Some(3e-5);
+    for scenario in presets::PRESETS.iter().map(presets::Preset::scenario).chain([own]) {
         let link = link::encode(&scenario);
         let refused = |damaged: &str| {
-            let newer = damaged.starts_with(|c| ('2'..='9').contains(&c));
+            let newer = damaged.starts_with(|c| ('3'..='9').contains(&c));
             let expected = if newer { LinkError::Newer } else { LinkError::Damaged };
             assert_eq!(link::decode(damaged), Err(expected), "{damaged}");
         };
@@ -169,7 +222,7 @@ fn what_a_link_says_of_the_view_is_no_part_of_the_robot() {
 fn links_of_later_formats_are_told() {
     assert!(LinkError::Newer.to_string().contains("newer version of Tautline"));
     let link = link::encode(&paper());
-    for mark in '2'..='9' {
+    for mark in '3'..='9' {
         assert_eq!(link::decode(&format!("{mark}{}", &link[1..])), Err(LinkError::Newer));
         assert_eq!(link::decode(&mark.to_string()), Err(LinkError::Newer));
     }
@@ -272,7 +325,19 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
         (prop::array::uniform3(any_finite()), prop::array::uniform3(any_finite()))
             .prop_map(|(horizontal, vertical)| TensionLaw::Hypot { horizontal, vertical }),
     ];
-    let cable = (prop::array::uniform2(any_finite()), law).prop_map(|(anchor, tension)| Cable { anchor, tension });
+    let positive = || prop::option::of(any_finite().prop_map(|value| value.abs().max(f64::from_bits(1))));
+    let strain = prop::option::of(prop_oneof![Just(Strain::Green), Just(Strain::Engineering)]);
+    let own =
+        (positive(), positive(), positive(), strain).prop_map(|(youngs_modulus, area, mass_per_length, strain)| {
+            OwnMaterial { youngs_modulus, area, mass_per_length, strain }
+        });
+    // Products of the own values often leave the range of numbers, so most cables have none.
+    let own = prop_oneof![5 => Just(OwnMaterial::default()), 1 => own];
+    let cable = (prop::array::uniform2(any_finite()), law, own).prop_map(|(anchor, tension, cable)| Cable {
+        anchor,
+        tension,
+        cable,
+    });
     let cables = (prop::collection::vec(cable, 3..=8), any::<(prop::sample::Index, prop::sample::Index)>()).prop_map(
         |(mut cables, (a, b))| {
             let (a, b) = (a.index(cables.len()), b.index(cables.len() - 1));
@@ -292,7 +357,6 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
         let (gravity, mass, [alpha, beta], elements_per_cable, tangent) = rest;
         let (position, direction, speed) = motion;
         let scenario = Scenario {
-            schema: Schema::V1,
             name,
             gravity,
             cable: Material {
@@ -329,19 +393,25 @@ proptest! {
             prop_assert!(matches!(link::decode(&garbage), Err(LinkError::Damaged | LinkError::Newer)), "{}", garbage);
         }
         // With a right checksum too, any bytes are told or survive.
-        if let Ok(scenario) = link::decode(&around(&bytes)) {
-            prop_assert_eq!(link::decode(&link::encode(&scenario)), Ok(scenario));
+        for link in [around(&bytes), around_second(&bytes)] {
+            if let Ok(scenario) = link::decode(&link) {
+                prop_assert_eq!(link::decode(&link::encode(&scenario)), Ok(scenario));
+            }
         }
     }
 
     #[test]
     fn changed_bytes_are_told_or_survive(at in any::<prop::sample::Index>(), byte in any::<u8>()) {
-        let mut bytes = with_cables(&[4], &CABLES);
-        let at = at.index(bytes.len());
-        bytes[at] = byte;
-        match link::decode(&around(&bytes)) {
-            Ok(scenario) => prop_assert_eq!(link::decode(&link::encode(&scenario)), Ok(scenario)),
-            Err(error) => prop_assert!(!error.to_string().is_empty() && error != LinkError::Newer),
+        let own: [&[u8]; 4] = [&[1, 0x27, 8], &[0], &[22, 0x30, 0x24], &[8]];
+        let second: Vec<Vec<u8>> = CABLES.iter().zip(own).map(|(cable, own)| [cable, own].concat()).collect();
+        let second: Vec<&[u8]> = second.iter().map(Vec::as_slice).collect();
+        for (mark, mut bytes) in [("1", with_cables(&[4], &CABLES)), ("2", with_cables(&[4], &second))] {
+            let at = at.index(bytes.len());
+            bytes[at] = byte;
+            match link::decode(&of_version(mark, &bytes)) {
+                Ok(scenario) => prop_assert_eq!(link::decode(&link::encode(&scenario)), Ok(scenario)),
+                Err(error) => prop_assert!(!error.to_string().is_empty() && error != LinkError::Newer),
+            }
         }
     }
 }

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 
 use common::shell::{Done, File, refuse, succeed, tautline};
 use serde_json::{Value, json};
-use tautline::robot::TensionLaw;
+use tautline::robot::{OwnMaterial, TensionLaw};
 use tautline::scenario::{Scenario, presets};
 
 const COLUMNS: &str = "x,y,feasible,critical_speed,frequency_hz,kind,cable,wave_limit,status";
@@ -231,6 +231,26 @@ fn numbers_that_the_file_leaves_out_can_be_swept() {
     assert_eq!(first("damping.beta=0.003:9:1"), ["0.003"]);
     assert_eq!(first("damping.alpha=0.1:0.1:2"), ["0.1", "0.1"]);
     assert_eq!(first("damping.beta=1e-7:3e-7:3"), ["1e-7", "2e-7", "3e-7"]);
+}
+
+#[test]
+fn what_a_cable_has_of_its_own_can_be_swept_where_it_has_it() {
+    let mut scenario = small();
+    scenario.cables[1].cable.area = Some(6e-5);
+    let set = "cables[1].cable.area=2e-5:6e-5:3";
+    let (header, rows) = table(&succeed(&["sweep", "-", "--csv", "--set", set], &scenario.to_json()));
+    assert!(header.starts_with("cables[1].cable.area,x,y,"), "{header}");
+    for (row, area) in rows.iter().zip([2e-5, 4e-5, 6e-5]) {
+        scenario.cables[1].cable.area = Some(area);
+        check_row(&row[1..], &scenario);
+    }
+    let lines = refuse(&["sweep", "-", "--csv", "--set", set], &small().to_json());
+    assert!(lines.len() == 1 && lines[0].contains("no such number"), "{lines:?}");
+    // An own E and the common A are at fault together only, and not in the first part's row.
+    let sets = ["--set", "cable.area=1e-5:1e200:2", "--set", "cables[1].cable.youngs_modulus=1e8:1e200:2"];
+    scenario.cables[1].cable = OwnMaterial { youngs_modulus: Some(1e8), ..OwnMaterial::default() };
+    let lines = refuse(&[&["sweep", "-", "--csv", "--shard=1/4"][..], &sets].concat(), &scenario.to_json());
+    assert!(lines.len() == 1 && lines[0].contains("cables[1].cable.youngs_modulus: 1e200 is not allowed"), "{lines:?}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Memory: a value of the characteristic function takes none, and the largest robots take little.
 
 use nalgebra::Complex;
-use tautline::robot::{Cable, Linearisation, RobotSpec, TensionLaw, Vec2, paper_spec};
+use tautline::robot::{Cable, Linearisation, RobotSpec, TensionLaw, paper_spec};
 use tautline::stability::{Characteristic, Outcome, unstable_eigenvalues};
 use tautline::{LocalProblem, Motion, Robot};
 
@@ -13,7 +13,7 @@ fn robot(elements: usize, cables: usize) -> Robot {
     let mut spec = RobotSpec { elements, linearisation: Linearisation::Tangent, ..paper_spec() };
     for (k, tension) in (spec.cables.len()..cables).zip([60.0, 65.0, 70.0, 75.0]) {
         let side = if k % 2 == 0 { -1.0 } else { 1.0 };
-        spec.cables.push(Cable { anchor: Vec2::new(side * k as f64, -6.0), tension: TensionLaw::Constant(tension) });
+        spec.cables.push(Cable::new([side * k as f64, -6.0], TensionLaw::Constant(tension)));
     }
     Robot::new(spec).expect("a robot")
 }

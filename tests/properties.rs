@@ -95,15 +95,14 @@ proptest! {
         let found = statics(&robot, platform);
         prop_assume!(found.is_some());
         let found = found.unwrap();
-        let law = Hung::of(&robot);
         let mut load = Vec2::new(0.0, robot.platform_mass * robot.gravity);
         for i in robot.prescribed() {
-            let (shape, chord) = (&found.cables[i], robot.cables[i].anchor - platform);
+            let (law, shape, chord) = (Hung::of(&robot, i), &found.cables[i], robot.cables[i].anchor - platform);
             let force = law.platform_force(shape);
             load -= force;
             let hung = law.force(chord, shape.length).expect("a cable of the same length");
             // The stretch is known to some roundings, and with it the force to those of the stiffness.
-            let rounding = 64.0 * f64::EPSILON * (robot.axial_stiffness() + force.norm());
+            let rounding = 64.0 * f64::EPSILON * (robot.axial_stiffness(i) + force.norm());
             close((hung - force).norm(), 0.0, rounding, format_args!("force of cable {}", i + 1));
             for (length, other) in law.curve(chord) {
                 prop_assert!(length >= shape.length * (1.0 - 1e-9) || other.norm() > force.norm(),
@@ -111,7 +110,7 @@ proptest! {
             }
         }
         let pair = pair(&robot);
-        let curves = pair.map(|i| law.curve(robot.cables[i].anchor - platform));
+        let curves = pair.map(|i| Hung::of(&robot, i).curve(robot.cables[i].anchor - platform));
         let ours = [0, 1].map(|k| hung::place(&curves[k], found.cables[pair[k]].length));
         // Beyond the curves: more than 1e5 N or thrice the length of the chord.
         prop_assume!((0..2).all(|k| ours[k] > 1 && ours[k] + 2 < curves[k].len()));
@@ -128,7 +127,7 @@ proptest! {
     #[test]
     fn the_taut_branch_is_kept_up_to_its_end((robot, motion) in moving_robot(2..25), exponent in -6.0..-0.5) {
         let i = robot.prescribed().next().expect("a prescribed cable");
-        let least = Hung::of(&robot).least_tension(robot.cables[i].anchor - motion.position());
+        let least = Hung::of(&robot, i).least_tension(robot.cables[i].anchor - motion.position());
         prop_assume!(least.is_some());
         let (length, least) = least.unwrap();
         let with_tension = |tension: f64| {

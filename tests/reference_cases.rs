@@ -12,7 +12,9 @@ use common::{
 };
 use nalgebra::Complex;
 use serde_json::Value;
+use tautline::Robot;
 use tautline::mechanics::{Statics, StaticsError};
+use tautline::robot::{Damping, RobotSpec};
 use tautline::stability::{Critical, CriticalSearch, Instability, Method, Outcome};
 use tautline::study::LocalProblem;
 
@@ -52,6 +54,30 @@ fn what_the_four_cable_robots_do_not_cover() {
     assert_eq!(files.len(), 18);
     for file in files {
         check_case(&file, &[Method::Structured, Method::Dense]);
+    }
+}
+
+/// Cables of different materials and strain laws. Two cases come from a program that shares nothing with `oracle.py`, which
+/// made the others.
+#[test]
+fn robots_whose_cables_have_materials_of_their_own() {
+    let files = reference_files("own_");
+    assert_eq!(files.len(), 4);
+    for file in files {
+        check_case(&file, &[Method::Structured, Method::Dense]);
+        let case = read(&file);
+        let (robot, motion) = scenario(&case["scenario"]);
+        assert!(robot.cables.iter().any(|cable| !cable.own.is_empty()), "{}", name(&file));
+        let Some(lowest) = case["expected"]["undamped_omega_squared"].as_array() else { continue };
+        let damping = Damping { alpha: 0.0, beta: 0.0 };
+        let undamped = Robot::new(RobotSpec { damping, ..(*robot).clone() }).expect(name(&file));
+        let spectrum = LocalProblem::new(&undamped, &motion).expect(name(&file)).spectrum(0.0).expect(name(&file));
+        let mut squares: Vec<f64> = spectrum.eigenvalues().filter(|l| l.im > 0.0).map(|l| l.im * l.im).collect();
+        squares.sort_by(f64::total_cmp);
+        for (k, (square, expected)) in squares.into_iter().zip(lowest).enumerate() {
+            let expected = number(expected);
+            close(square, expected, EIGENVALUE * expected, format_args!("{}: square {k}", name(&file)));
+        }
     }
 }
 

@@ -5,9 +5,9 @@
 use std::fs;
 
 use proptest::prelude::*;
-use tautline::robot::{self, Fault, Linearisation, Motion, Strain, TensionLaw};
-use tautline::scenario::v1::{SCHEMA, Schema};
-use tautline::scenario::{Scenario, presets};
+use tautline::robot::{self, Fault, Linearisation, Motion, OwnMaterial, Strain, TensionLaw};
+use tautline::scenario::json::{Material, SCHEMA, SCHEMA_2};
+use tautline::scenario::{Parameter, Scenario, presets};
 
 /// A scenario with every kind of field, as the format's description has it.
 const SAMPLE: &str = r#"{ "schema": "tautline/scenario/1",
@@ -102,7 +102,8 @@ fn every_form_is_read() {
 #[test]
 fn structural_faults_name_path_value_and_what_is_allowed() {
     for (old, new, path, value, allowed) in [
-        ("tautline/scenario/1", "tautline/scenario/2", "schema", r#""tautline/scenario/2""#, SCHEMA),
+        ("tautline/scenario/1", "tautline/scenario/3", "schema", r#""tautline/scenario/3""#, SCHEMA),
+        ("tautline/scenario/1", "tautline/scenario/3", "schema", r#""tautline/scenario/3""#, SCHEMA_2),
         (r#""name": "Paper robot""#, r#""name": 7"#, "name", "7", "a text"),
         (r#""name": "Paper robot""#, r#""name": null"#, "name", "null", "a text"),
         ("9.81", r#""9.81""#, "gravity", r#""9.81""#, "a finite number"),
@@ -257,12 +258,149 @@ fn the_file_is_laid_out_for_people() {
     assert_eq!(accepted(SAMPLE).to_json(), expected);
 }
 
+/// The sample, whose third cable has `cable`, in a file of this schema (with the comma behind it) or of none.
+fn with_own(schema: &str, cable: &str) -> String {
+    let third = r#""vertical": [45, 0, 0] } }"#;
+    with(r#""schema": "tautline/scenario/1","#, schema)
+        .replace(third, &format!(r#""vertical": [45, 0, 0] }}, "cable": {cable} }}"#))
+}
+
+const SECOND: &str = r#""schema": "tautline/scenario/2","#;
+
+#[test]
+fn a_cable_may_have_a_material_of_its_own() {
+    let own = r#"{ "strain": "engineering", "area": 1e-5, "mass_per_length": 0.08, "youngs_modulus": 2e11 }"#;
+    for schema in [SECOND, ""] {
+        let scenario = accepted(&with_own(schema, own));
+        let expected = OwnMaterial {
+            youngs_modulus: Some(2e11),
+            area: Some(1e-5),
+            mass_per_length: Some(0.08),
+            strain: Some(Strain::Engineering),
+        };
+        assert_eq!(scenario.cables[2].cable, expected);
+        assert_eq!(scenario.schema(), SCHEMA_2);
+        let (robot, _) = scenario.to_robot().unwrap();
+        assert_eq!([0, 1, 3].map(|i| robot.material_of(i)), [robot.material; 3]);
+        assert!((robot.axial_stiffness(2) - 2e6).abs() < 1e-9 && (robot.weight_per_length(2) - 0.7848).abs() < 1e-12);
+        assert_eq!(scenario.material_of(2), Material::from(robot.material_of(2)));
+        assert_eq!(accepted(&scenario.to_json()), scenario);
+        let text = scenario.to_json();
+        assert!(text.starts_with("{\n  \"schema\": \"tautline/scenario/2\",\n"), "{text}");
+        let line = r#""vertical": [45.0, 0.0, 0.0] }, "cable": { "youngs_modulus": 200000000000.0, "area": 0.00001, "mass_per_length": 0.08, "strain": "engineering" } },"#;
+        assert!(text.contains(line), "{text}");
+    }
+    // What is not given is that of all cables.
+    let scenario = accepted(&with_own(SECOND, r#"{ "area": 1e-4 }"#));
+    assert_eq!(scenario.material_of(2), Material { area: 1e-4, ..scenario.cable });
+}
+
+/// The version is a consequence: without an own material a file is of the first.
+#[test]
+fn an_empty_own_material_is_none() {
+    for text in
+        [with_own(SECOND, "{}"), with_own("", "{}"), with(r#""tautline/scenario/1""#, r#""tautline/scenario/2""#)]
+    {
+        assert_eq!(accepted(&text), accepted(SAMPLE));
+        assert_eq!(accepted(&text).to_json(), accepted(SAMPLE).to_json());
+    }
+}
+
+#[test]
+fn a_file_of_the_first_schema_has_no_own_material() {
+    let first = r#""schema": "tautline/scenario/1","#;
+    for cable in ["{}", r#"{ "area": 1e-5 }"#, "3"] {
+        let text = with_own(first, cable);
+        let told = faults(&text);
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert_eq!(
+            told[0].to_string(),
+            format!(
+                "cables[2].cable: a field of tautline/scenario/2 ({cable}) is not allowed; allowed: the fields anchor, \
+                 tension in \"tautline/scenario/1\"; say \"tautline/scenario/2\", or leave it out"
+            )
+        );
+    }
+}
+
+#[test]
+fn faults_of_an_own_material_name_its_path() {
+    let positive = "a finite number greater than 0";
+    for (cable, path, value, allowed) in [
+        ("null", "cables[2].cable", "null", "an object with the fields youngs_modulus, area, mass_per_length, strain"),
+        ("[]", "cables[2].cable", "[]", "an object with the fields youngs_modulus, area, mass_per_length, strain"),
+        (r#"{ "area": null }"#, "cables[2].cable.area", "null", "a finite number"),
+        (r#"{ "area": "1e-5" }"#, "cables[2].cable.area", r#""1e-5""#, "a finite number"),
+        (r#"{ "strain": "Green" }"#, "cables[2].cable.strain", r#""Green""#, r#""green" or "engineering""#),
+        (r#"{ "diameter": 1 }"#, "cables[2].cable.diameter", "an unknown field (1)", "the fields youngs_modulus"),
+        (r#"{ "youngs_modulus": 0 }"#, "cables[2].cable.youngs_modulus", "0", positive),
+        (r#"{ "area": -1e-5 }"#, "cables[2].cable.area", "-1e-5", positive),
+        (r#"{ "mass_per_length": 0.00 }"#, "cables[2].cable.mass_per_length", "0.00", positive),
+        // EA, of an own value and a common one, and of two own ones; μ g.
+        (r#"{ "youngs_modulus": 1e-305 }"#, "cables[2].cable.youngs_modulus", "1e-305", "product with cable.area is"),
+        (r#"{ "area": 1e305 }"#, "cables[2].cable.area", "1e305", "product with cable.youngs_modulus is"),
+        (
+            r#"{ "youngs_modulus": 1e200, "area": 1e200 }"#,
+            "cables[2].cable.youngs_modulus",
+            "1e200",
+            "product with cables[2].cable.area is within the range",
+        ),
+        (r#"{ "mass_per_length": 1e308 }"#, "cables[2].cable.mass_per_length", "1e308", "product with gravity is"),
+    ] {
+        assert_fault(&with_own(SECOND, cable), path, value, allowed);
+        assert_eq!(faults(&with_own(SECOND, cable)).len(), 1, "{cable}");
+    }
+}
+
+/// An own value is a number like others once a cable has it, and given or taken away by itself.
+#[test]
+fn own_values_are_parameters_where_they_are() {
+    let scenario = accepted(SAMPLE);
+    let own = Parameter::Area.own(2).unwrap();
+    assert_eq!(
+        (own, own.common(), own.path().as_str()),
+        (Parameter::OwnArea(2), Some(Parameter::Area), "cables[2].cable.area")
+    );
+    assert_eq!((Parameter::Speed.own(2), Parameter::Area.common()), (None, None));
+    assert!(!own.is_in(&scenario) && !Parameter::all(&scenario).contains(&own));
+    let mut changed = scenario.clone();
+    own.set(&mut changed, 1e-5);
+    assert_eq!(changed, scenario, "there is none to be set");
+    own.give(&mut changed, 1e-5);
+    assert!(own.is_in(&changed) && Parameter::all(&changed).contains(&own));
+    assert_eq!((own.get(&changed).to_bits(), changed.cables[2].cable.area), (1e-5_f64.to_bits(), Some(1e-5)));
+    own.set(&mut changed, 2e-5);
+    assert_eq!(changed.cables[2].cable.area, Some(2e-5));
+    let mut other = scenario.clone();
+    own.copy(&changed, &mut other);
+    assert_eq!(other, changed);
+    own.copy(&scenario, &mut other);
+    assert_eq!(other, scenario, "what is not there is not there in the copy");
+    own.take_away(&mut changed);
+    assert_eq!(changed, scenario);
+    Parameter::OwnArea(9).give(&mut changed, 1.0);
+    Parameter::Area.take_away(&mut changed);
+    assert_eq!(changed, scenario);
+    Parameter::Area.give(&mut changed, 3e-5);
+    assert_eq!(changed.cable.area.to_bits(), 3e-5_f64.to_bits());
+    // In the order of the file, before the next cable.
+    for parameter in [Parameter::OwnYoungsModulus(0), own, Parameter::OwnMassPerLength(3)] {
+        parameter.give(&mut changed, 0.5);
+    }
+    let paths: Vec<String> = Parameter::all(&changed).into_iter().map(Parameter::path).collect();
+    let at = |path: &str| paths.iter().position(|other| other == path).unwrap();
+    assert!(at("cables[0].anchor[1]") < at("cables[0].cable.youngs_modulus"));
+    assert!(at("cables[0].cable.youngs_modulus") < at("cables[1].anchor[0]"));
+    assert!(at("cables[2].tension.vertical[2]") < at("cables[2].cable.area"));
+    assert!(at("cables[3].cable.mass_per_length") < at("elements_per_cable"));
+}
+
 #[test]
 fn a_robot_makes_the_scenario_that_makes_the_robot() {
     let robot = robot::paper().unwrap();
     let motion = Motion::new([0.1, -0.3], [1.0, -7.0], 2.5).unwrap();
     let scenario = Scenario::new(&robot, &motion);
-    assert_eq!((scenario.schema, &scenario.name), (Schema::V1, &None));
+    assert_eq!((scenario.schema(), &scenario.name), (SCHEMA, &None));
     assert_eq!(scenario.to_robot().unwrap(), (robot, motion));
 }
 
@@ -416,6 +554,13 @@ proptest! {
         scenario.cables[2].anchor = [any(), any()];
         scenario.cables[2].tension = TensionLaw::Hypot { horizontal: [any(), any(), any()], vertical: [any(), 1.0, 2.0] };
         scenario.cables[3].tension = TensionLaw::Constant(constant);
+        scenario.cables[1].cable.area = Some(modulus);
+        scenario.cables[3].cable = OwnMaterial {
+            youngs_modulus: Some(mass),
+            mass_per_length: Some(constant),
+            strain: Some(Strain::Engineering),
+            ..OwnMaterial::default()
+        };
         prop_assume!(scenario.to_robot().is_ok());
         assert_survives(&scenario.to_json())?;
         // The robot's own form keeps them as well; a direction once normalised stays as it is.

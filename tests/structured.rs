@@ -13,7 +13,7 @@ use std::thread;
 use common::dense::Parts;
 use common::judge::{Drawn, Verdict, judge_critical_speed, judge_eigenvalues};
 use common::referee::divergences;
-use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2, paper_spec};
+use tautline::robot::{Cable, CableMaterial, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2, paper_spec};
 use tautline::stability::{
     CriticalSearch, Doubt, Instability, Method, NotConverged, Outcome, Solver, structured, unstable_eigenvalues,
 };
@@ -72,14 +72,8 @@ fn random(seed: u64) -> (Robot, LocalProblem) {
     loop {
         let pick = &mut numbers;
         let mut cables = vec![
-            Cable {
-                anchor: Vec2::new(pick.within(-12.0, -6.0), pick.within(3.0, 8.0)),
-                tension: TensionLaw::Equilibrium,
-            },
-            Cable {
-                anchor: Vec2::new(pick.within(6.0, 12.0), pick.within(3.0, 8.0)),
-                tension: TensionLaw::Equilibrium,
-            },
+            Cable::new(Vec2::new(pick.within(-12.0, -6.0), pick.within(3.0, 8.0)), TensionLaw::Equilibrium),
+            Cable::new(Vec2::new(pick.within(6.0, 12.0), pick.within(3.0, 8.0)), TensionLaw::Equilibrium),
         ];
         let number = pick.one_of(&[3, 4, 4, 4, 5, 6]);
         while cables.len() < number {
@@ -93,7 +87,7 @@ fn random(seed: u64) -> (Robot, LocalProblem) {
                     vertical: [pick.within(20.0, 90.0), pick.within(-2.0, 2.0), 0.0],
                 }
             };
-            cables.push(Cable { anchor, tension });
+            cables.push(Cable::new(anchor, tension));
         }
         let heavy = pick.one_of(&[false, true]);
         let damping = Damping {
@@ -103,10 +97,12 @@ fn random(seed: u64) -> (Robot, LocalProblem) {
                 * if heavy { pick.decades(0.005, 0.1) } else { pick.decades(1e-5, 5e-3) },
         };
         let spec = RobotSpec {
-            youngs_modulus: pick.decades(1e3, 1e7),
-            area: 1.0,
-            mass_per_length: pick.decades(0.05, 1.0),
-            strain: pick.one_of(&[Strain::Green, Strain::Engineering]),
+            material: CableMaterial {
+                youngs_modulus: pick.decades(1e3, 1e7),
+                area: 1.0,
+                mass_per_length: pick.decades(0.05, 1.0),
+                strain: pick.one_of(&[Strain::Green, Strain::Engineering]),
+            },
             platform_mass: pick.decades(0.5, 50.0),
             cables,
             elements: pick.one_of(&[3, 4, 5, 6, 8, 10, 16, 24]),

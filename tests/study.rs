@@ -669,17 +669,18 @@ fn meshes(robot: &Robot, motion: &Motion, counts: &[usize]) -> Vec<(usize, Verdi
 fn wave_limit(robot: &Robot, motion: &Motion) -> f64 {
     let robot = Robot::new(RobotSpec { elements: 200, ..(**robot).clone() }).expect("a robot");
     let local = LocalProblem::new(&robot, motion).expect("a pose");
-    let weight = robot.mass_per_length * robot.gravity;
-    let of_cable = |(shape, rates): (&CableShape, &LengthRates)| {
+    let of_cable = |(cable, (shape, rates)): (usize, (&CableShape, &LengthRates))| {
+        let (law, mu) = (Material::of(&robot, cable), robot.material_of(cable).mass_per_length);
+        let weight = mu * robot.gravity;
         let at_platform = shape.t0 - Vec2::new(0.0, 0.5 * weight * shape.length / 200.0);
         let at = |part: f64| {
             let force = (at_platform + Vec2::new(0.0, weight * shape.length * part)).norm();
-            let waves = (force / Material::of(&robot).stretch(force) / robot.mass_per_length).sqrt();
+            let waves = (force / law.stretch(force) / mu).sqrt();
             waves / (rates.first.abs() * part)
         };
         (1..=10_000).map(|i| at(f64::from(i) / 10_000.0)).fold(f64::INFINITY, f64::min)
     };
-    local.statics.cables.iter().zip(&local.rates).map(of_cable).fold(f64::INFINITY, f64::min)
+    local.statics.cables.iter().zip(&local.rates).enumerate().map(of_cable).fold(f64::INFINITY, f64::min)
 }
 
 /// The limits that coarse meshes of random robots promise, with their uncertainty, hold the better known value. For a

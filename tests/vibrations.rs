@@ -46,15 +46,15 @@ fn damped(squared_frequency: f64, damping: Damping) -> [C64; 2] {
 /// Simpson's rule, which is exact for their squares.
 fn check_shares(robot: &Robot, local: &LocalProblem, mode: &Mode) {
     let platform = robot.platform_mass * mode.displacement[0][0].norm_squared();
-    let cable = |(nodes, shape): (&Vec<Vector2<C64>>, &CableShape)| {
-        let mass = robot.mass_per_length * shape.length / robot.elements as f64;
+    let cable = |(i, (nodes, shape)): (usize, (&Vec<Vector2<C64>>, &CableShape))| {
+        let mass = robot.material_of(i).mass_per_length * shape.length / robot.elements as f64;
         let element = |pair: &[Vector2<C64>]| {
             let middle = (pair[0] + pair[1]) * C64::from(0.5);
             mass / 6.0 * (pair[0].norm_squared() + 4.0 * middle.norm_squared() + pair[1].norm_squared())
         };
         nodes.windows(2).map(element).sum::<f64>()
     };
-    let cables: Vec<f64> = mode.displacement.iter().zip(&local.statics.cables).map(cable).collect();
+    let cables: Vec<f64> = mode.displacement.iter().zip(&local.statics.cables).enumerate().map(cable).collect();
     let total = platform + cables.iter().sum::<f64>();
     close(mode.platform_share, platform / total, 1e-12, "the platform's share of the kinetic energy");
     for (i, (share, energy)) in mode.cable_share.iter().zip(&cables).enumerate() {

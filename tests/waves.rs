@@ -48,23 +48,23 @@ fn wave_limits_are_those_of_an_independent_program() {
 #[test]
 fn wave_limits_follow_from_the_shapes_of_the_reference_cases() {
     // Of cables that reach it together, as in a symmetric pose, either counts but for one that is reeled in.
-    for case in 0..24 {
-        let name = format!("case_{case:02}");
+    let own = ["own_00_point_three_cables", "own_01_point_five_cables", "own_02_mixed_laws_tangent"];
+    for name in (0..24).map(|case| format!("case_{case:02}")).chain(own.map(String::from)) {
         let case = reference(&name);
         let (robot, motion) = scenario(&case["scenario"]);
-        let material = tautline::mechanics::Material::of(&robot);
         let cables = list(&case["expected"]["cables"]);
         let longest = cables.iter().map(|cable| number(&cable["unstretched_length"])).fold(0.0, f64::max);
         let (mut least, mut allowed) = (f64::INFINITY, 0.0);
         let mut limits = vec![f64::INFINITY; cables.len()];
         for (i, cable) in cables.iter().enumerate() {
             let nodes: Vec<[f64; 2]> = list(&cable["nodes"]).iter().map(coordinates::<2>).collect();
+            let (material, mu) = (tautline::mechanics::Material::of(&robot, i), robot.material_of(i).mass_per_length);
             let elements = (nodes.len() - 1) as f64;
             let (l, rate) = (number(&cable["unstretched_length"]) / elements, number(&cable["length_rate"]));
             for (k, ends) in nodes.windows(2).enumerate() {
                 let stretch = (ends[1][0] - ends[0][0]).hypot(ends[1][1] - ends[0][1]) / l;
                 let force = material.force(stretch);
-                let wave = (force / (stretch * robot.mass_per_length)).sqrt();
+                let wave = (force / (stretch * mu)).sqrt();
                 let speed = wave / (rate.abs() * (k + 1) as f64 / elements);
                 limits[i] = limits[i].min(speed);
                 if speed < least {

@@ -29,7 +29,8 @@ pub struct Field {
 impl Field {
     /// The same in the units chosen.
     pub fn in_units_of(mut self, settings: Settings) -> Self {
-        if self.parameter == Parameter::YoungsModulus && settings.stress == StressUnit::Gigapascal {
+        let modulus = matches!(self.parameter, Parameter::YoungsModulus | Parameter::OwnYoungsModulus(_));
+        if modulus && settings.stress == StressUnit::Gigapascal {
             self.range = self.range.map(|end| end / 1e3);
             self.unit = "GPa";
         }
@@ -45,9 +46,12 @@ impl Field {
     fn title(&self) -> String {
         match self.parameter {
             Parameter::Anchor(cable, _) => format!("{} of winch {}", self.symbol, cable + 1),
-            Parameter::Tension(cable) | Parameter::Horizontal(cable, _) | Parameter::Vertical(cable, _) => {
-                format!("{} of cable {}", self.symbol, cable + 1)
-            }
+            Parameter::Tension(cable)
+            | Parameter::Horizontal(cable, _)
+            | Parameter::Vertical(cable, _)
+            | Parameter::OwnYoungsModulus(cable)
+            | Parameter::OwnArea(cable)
+            | Parameter::OwnMassPerLength(cable) => format!("{} of cable {}", self.symbol, cable + 1),
             _ => self.symbol.into(),
         }
     }
@@ -119,21 +123,21 @@ impl Field {
             ),
             Parameter::Position(0) => named("Position", "x", "m", [low.x, high.x], POSITION),
             Parameter::Position(_) => named("Position", "y", "m", [low.y, high.y], POSITION),
-            Parameter::YoungsModulus => logarithmic(named(
+            Parameter::YoungsModulus | Parameter::OwnYoungsModulus(_) => logarithmic(named(
                 "Young's modulus",
                 "E",
                 "MPa",
                 [1.0, 300_000.0],
                 "How hard the cables' material is to stretch. With the cross-section A it makes the axial stiffness EA.",
             )),
-            Parameter::Area => logarithmic(named(
+            Parameter::Area | Parameter::OwnArea(_) => logarithmic(named(
                 "Cross-section",
                 "A",
                 "cm²",
                 [0.001, 10.0],
                 "The area of a cable that carries its load.",
             )),
-            Parameter::MassPerLength => logarithmic(named(
+            Parameter::MassPerLength | Parameter::OwnMassPerLength(_) => logarithmic(named(
                 "Cable mass",
                 "μ",
                 "kg/m",
@@ -260,7 +264,10 @@ mod tests {
 
     #[test]
     fn every_field_has_its_unit_and_every_fault_finds_its_field() {
-        for scenario in presets::PRESETS.iter().map(presets::Preset::scenario) {
+        for mut scenario in presets::PRESETS.iter().map(presets::Preset::scenario) {
+            for parameter in [Parameter::OwnYoungsModulus(1), Parameter::OwnArea(1), Parameter::OwnMassPerLength(1)] {
+                parameter.give(&mut scenario, 1.0);
+            }
             for field in Parameter::all(&scenario).into_iter().chain([Parameter::Direction]).map(field) {
                 let kind = field.unit().dimension.kind();
                 assert_eq!(kind == "a plain number", field.unit.is_empty(), "{}: {kind}", field.name);
@@ -298,6 +305,12 @@ mod tests {
             refused(Parameter::Speed, -1.0, settings),
             "v must be 0 m/s or more, not -1 m/s: turn the direction round to go back"
         );
+        let own = Parameter::OwnYoungsModulus(2);
+        let mut with_own = scenario.clone();
+        own.give(&mut with_own, 2e11);
+        let refused_own = |value: f64| edited(&with_own, &field(own), value, settings).expect_err("refused");
+        assert_eq!(refused_own(-5e9), "E of cable 3 must be more than 0 GPa, not -5 GPa");
+        assert_eq!(refused_own(1e-310), "The product of E of cable 3 and A is too large or too small a number");
         assert_eq!(refused(Parameter::Elements, 2.5, settings), "n must be a whole number from 2 to 200, not 2.5");
         assert_eq!(refused(Parameter::Elements, 1e9, settings), "n must be a whole number from 2 to 200, not 1e9");
     }

@@ -247,6 +247,7 @@ fn values(axes: &[&Axis], mut index: usize) -> Vec<f64> {
 fn coupled(axis: &Axis) -> Option<&'static str> {
     match axis.path.as_str() {
         path if path.contains(".anchor[") => Some("anchors"),
+        path if path.contains("].cable.") => Some("products"),
         path if path.starts_with("motion.direction") => Some("direction"),
         "cable.youngs_modulus" | "cable.area" | "cable.mass_per_length" | "platform.mass" | "gravity" => {
             Some("products")

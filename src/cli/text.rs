@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt::{self, Write as _};
 
-use crate::robot::{Linearisation, Motion, Strain, TensionLaw};
+use crate::robot::{Linearisation, Motion, OwnMaterial, Strain, TensionLaw};
 use crate::scenario::report::{CriticalReport, KindReport, StatusReport, WaveLimitReport};
 use crate::scenario::{Report, Scenario};
 
@@ -49,10 +49,7 @@ fn write(text: &mut String, scenario: &Scenario, motion: &Motion, report: &Repor
 
 fn heading(text: &mut String, scenario: &Scenario, motion: &Motion) -> fmt::Result {
     let cable = &scenario.cable;
-    let strain = match cable.strain {
-        Strain::Green => "Green",
-        Strain::Engineering => "engineering",
-    };
+    let strain = strain_name(cable.strain);
     let linearisation = match scenario.linearisation {
         Linearisation::Secant => "secant",
         Linearisation::Tangent => "tangent",
@@ -104,7 +101,30 @@ fn cables(text: &mut String, scenario: &Scenario, report: &Report) -> fmt::Resul
             reeling(cable.length_rate),
         )?;
     }
+    own_materials(text, scenario)
+}
+
+/// A line for each cable that has something of its own, with what that is.
+fn own_materials(text: &mut String, scenario: &Scenario) -> fmt::Result {
+    for (i, cable) in scenario.cables.iter().enumerate().filter(|(_, cable)| !cable.cable.is_empty()) {
+        let OwnMaterial { youngs_modulus, area, mass_per_length, strain } = cable.cable;
+        let mut parts = Vec::new();
+        if youngs_modulus.is_some() || area.is_some() {
+            let material = scenario.material_of(i);
+            parts.push(format!("EA = {} N", digits(material.youngs_modulus * material.area, 4)));
+        }
+        parts.extend(mass_per_length.map(|mass| format!("{} kg/m", digits(mass, 4))));
+        parts.extend(strain.map(|strain| format!("{} strain", strain_name(strain))));
+        writeln!(text, "Cable {} alone: {}", i + 1, parts.join(", "))?;
+    }
     Ok(())
+}
+
+fn strain_name(strain: Strain) -> &'static str {
+    match strain {
+        Strain::Green => "Green",
+        Strain::Engineering => "engineering",
+    }
 }
 
 /// What the winch does where a cable's length changes by `length_rate` per travel.

@@ -14,23 +14,30 @@ pub(super) struct CableModel<D> {
     pub elements: usize,
     /// Weight per unstretched length, N/m.
     pub weight: D,
+    /// The winch point, in m.
+    pub anchor: Vec2,
 }
 
 impl<D: DualNum<Primitive = f64> + Copy> CableModel<D> {
-    pub fn of(robot: &Robot) -> Self {
+    /// Cable `i` of the robot.
+    pub fn of(robot: &Robot, i: usize) -> Self {
+        let Material { axial_stiffness, strain } = Material::of(robot, i);
         Self {
-            material: Material { axial_stiffness: robot.axial_stiffness().into(), strain: robot.strain },
+            material: Material { axial_stiffness: axial_stiffness.into(), strain },
             elements: robot.elements,
-            weight: robot.weight_per_length().into(),
+            weight: robot.weight_per_length(i).into(),
+            anchor: robot.cables[i].anchor,
         }
     }
 
     /// The same with other `parameters`.
-    pub fn with(robot: &Robot, parameters: &Parameters<D>) -> Self {
+    pub fn with(robot: &Robot, parameters: &Parameters<D>, i: usize) -> Self {
+        let cable = &parameters.cables[i];
         Self {
-            material: Material { axial_stiffness: parameters.axial_stiffness, strain: robot.strain },
+            material: Material { axial_stiffness: cable.axial_stiffness, strain: robot.material_of(i).strain },
             elements: robot.elements,
-            weight: parameters.mass_per_length * parameters.gravity,
+            weight: cable.mass_per_length * parameters.gravity,
+            anchor: robot.cables[i].anchor,
         }
     }
 
@@ -56,9 +63,9 @@ impl<D: DualNum<Primitive = f64> + Copy> CableModel<D> {
 
     /// By how much the cable's end misses its anchor, in m. The walk starts at zero, so that a platform near the anchor
     /// and far from the origin costs no digits.
-    fn miss(&self, position: [D; 2], anchor: Vec2, t0: [D; 2], length: D) -> [D; 2] {
+    fn miss(&self, position: [D; 2], t0: [D; 2], length: D) -> [D; 2] {
         let end = self.walk([D::from(0.0); 2], t0, length, |_, _| {});
-        [end[0] + (position[0] - anchor.x), end[1] + (position[1] - anchor.y)]
+        [end[0] + (position[0] - self.anchor.x), end[1] + (position[1] - self.anchor.y)]
     }
 
     /// The force of the cable on the platform, t₀ − (0, μ g l/2).
@@ -68,30 +75,24 @@ impl<D: DualNum<Primitive = f64> + Copy> CableModel<D> {
 
     /// Residual of a prescribed cable with the unknowns (t₀, L): its end's distance from the anchor (m), and the
     /// excess of its tension at the platform (N).
-    pub fn prescribed_residual(&self, position: [D; 2], anchor: Vec2, tension: D, z: [D; 3]) -> [D; 3] {
+    pub fn prescribed_residual(&self, position: [D; 2], tension: D, z: [D; 3]) -> [D; 3] {
         let [tx, ty, length] = z;
-        let [dx, dy] = self.miss(position, anchor, [tx, ty], length);
+        let [dx, dy] = self.miss(position, [tx, ty], length);
         let [fx, fy] = self.platform_force([tx, ty], length);
         [dx, dy, (fx * fx + fy * fy).sqrt() - tension]
     }
 
-    /// Residual of the cables at equilibrium with the unknowns (t₀, L) of each, N in all: the distances of the ends from
-    /// their anchors (m), and the excess of their force on the platform over `load` (N). There is one cable to an anchor.
-    pub fn equilibrium_residual<const N: usize>(
-        &self,
-        position: [D; 2],
-        anchors: &[Vec2],
-        load: [D; 2],
-        z: [D; N],
-    ) -> [D; N] {
+    /// Residual of the `cables` at equilibrium with the unknowns (t₀, L) of each, N in all: the distances of the ends from
+    /// their anchors (m), and the excess of their force on the platform over `load` (N).
+    pub fn equilibrium_residual<const N: usize>(cables: &[Self], position: [D; 2], load: [D; 2], z: [D; N]) -> [D; N] {
         let mut residual = [D::from(0.0); N];
-        let balance = 2 * anchors.len();
+        let balance = 2 * cables.len();
         residual[balance] = -load[0];
         residual[balance + 1] = -load[1];
-        for (i, &anchor) in anchors.iter().enumerate() {
+        for (i, cable) in cables.iter().enumerate() {
             let (t0, length) = ([z[3 * i], z[3 * i + 1]], z[3 * i + 2]);
-            let miss = self.miss(position, anchor, t0, length);
-            let force = self.platform_force(t0, length);
+            let miss = cable.miss(position, t0, length);
+            let force = cable.platform_force(t0, length);
             for j in 0..2 {
                 residual[2 * i + j] = miss[j];
                 residual[balance + j] += force[j];

@@ -10,21 +10,23 @@ use num_dual::{Dual2, Dual64, DualNum};
 
 use super::cable::CableModel;
 use super::motion::paths;
-use super::parameters::{Knob, Parameters};
+use super::parameters::{CableParameters, Knob, Parameters};
 use crate::mechanics::{CableShape, Element, Hub, Joint, LengthRates, Material, Statics, Stiffness};
 use crate::robot::{Damping, Linearisation, Robot, Vec2};
 
 impl<D: DualNum<Primitive = f64> + Copy> Element<D> {
-    /// The elements of one cable of unstretched length L from the platform to the winch, given the force of each.
+    /// The elements of cable `i` of unstretched length L from the platform to the winch, given the force of each.
     fn of_cable<'a>(
         robot: &'a Robot,
-        parameters: &'a Parameters<D>,
+        parameters: &Parameters<D>,
+        i: usize,
         length: D,
         rates: LengthRates<D>,
         forces: impl IntoIterator<Item = Vector2<D>> + 'a,
     ) -> impl Iterator<Item = Self> + 'a {
-        let material = Material { axial_stiffness: parameters.axial_stiffness, strain: robot.strain };
-        let (mu, n) = (parameters.mass_per_length, robot.elements as f64);
+        let CableParameters { axial_stiffness, mass_per_length: mu, .. } = parameters.cables[i];
+        let material = Material { axial_stiffness, strain: robot.material_of(i).strain };
+        let n = robot.elements as f64;
         let l = length / n;
         forces.into_iter().enumerate().map(move |(k, t)| {
             // Inflow of element k and its rate at v = 1: w = −k l̇, −(k+1) l̇ with l̇ = L'/n, l̈ = L''/n.
@@ -136,11 +138,11 @@ impl Vibration {
             return None;
         }
         let parameters = Parameters::of(robot);
-        let chain = |(shape, &rates): (&CableShape, &LengthRates)| {
+        let chain = |(i, (shape, &rates)): (usize, (&CableShape, &LengthRates))| {
             let forces = shape.forces.iter().copied();
-            Chain { elements: Element::of_cable(robot, &parameters, shape.length, rates, forces).collect() }
+            Chain { elements: Element::of_cable(robot, &parameters, i, shape.length, rates, forces).collect() }
         };
-        let chains = statics.cables.iter().zip(rates).map(chain).collect();
+        let chains = statics.cables.iter().zip(rates).enumerate().map(chain).collect();
         Some(Self::of_robot(robot, chains, Hub::point(robot.platform_mass, cables)))
     }
 
@@ -173,14 +175,14 @@ impl Vibration<Dual64> {
     /// singular. docs/theory.md section 12.
     pub fn along(robot: &Robot, statics: &Statics, direction: Vec2, knob: Knob) -> Option<Self> {
         let parameters = Parameters::along(robot, knob);
-        let cable = CableModel::with(robot, &parameters);
-        let chain = |[tx, ty, length]: [Dual2<Dual64>; 3]| {
+        let chain = |(i, [tx, ty, length]): (usize, [Dual2<Dual64>; 3])| {
+            let cable = CableModel::with(robot, &parameters, i);
             let mut forces = Vec::with_capacity(robot.elements);
             cable.walk([0.0.into(); 2], [tx.re, ty.re], length.re, |t, _| forces.push(t.into()));
             let rates = LengthRates { first: length.v1, second: length.v2 };
-            Chain { elements: Element::of_cable(robot, &parameters, length.re, rates, forces).collect() }
+            Chain { elements: Element::of_cable(robot, &parameters, i, length.re, rates, forces).collect() }
         };
-        let chains = paths(robot, &parameters, statics, direction)?.into_iter().map(chain).collect();
+        let chains = paths(robot, &parameters, statics, direction)?.into_iter().enumerate().map(chain).collect();
         Some(Self::of_robot(robot, chains, Hub::point(parameters.platform_mass, robot.cables.len())))
     }
 }

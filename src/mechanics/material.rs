@@ -24,9 +24,10 @@ impl Material {
         if axial_stiffness > 0.0 && axial_stiffness.is_finite() { Some(Self { axial_stiffness, strain }) } else { None }
     }
 
-    /// The material of a robot's cables.
-    pub fn of(robot: &Robot) -> Self {
-        Self { axial_stiffness: robot.axial_stiffness(), strain: robot.strain }
+    /// The axial law of a robot's cable (0-based).
+    pub fn of(robot: &Robot, cable: usize) -> Self {
+        let material = robot.material_of(cable);
+        Self { axial_stiffness: material.axial_stiffness(), strain: material.strain }
     }
 }
 

@@ -42,24 +42,23 @@ pub(super) fn paths<D: DualNum<Primitive = f64> + Copy>(
 ) -> Option<Vec<[Dual2<D>; 3]>> {
     let fixed = statics.position;
     let parameters = parameters.map(Dual2::from_re);
-    let cable = CableModel::with(robot, &parameters);
     let position = [0, 1].map(|j| Dual2::new(fixed[j].into(), direction[j].into(), 0.0.into()));
     let mut paths = vec![[Dual2::from(0.0); 3]; robot.cables.len()];
     let mut load = [Dual2::from(0.0), parameters.platform_mass * parameters.gravity];
 
     for i in robot.prescribed() {
-        let (anchor, law) = (robot.cables[i].anchor, robot.cables[i].tension);
+        let (cable, law) = (CableModel::with(robot, &parameters, i), robot.cables[i].tension);
         let shape = statics.cables.get(i)?;
         let path = follow(
             SVector::from([shape.t0.x, shape.t0.y, shape.length]),
             |z| {
                 let fixed = [fixed.x.into(), fixed.y.into()];
                 let tension = prescribed_tension(law, fixed);
-                SVector::from(CableModel::of(robot).prescribed_residual(fixed, anchor, tension, z.into()))
+                SVector::from(CableModel::of(robot, i).prescribed_residual(fixed, tension, z.into()))
             },
             |z| {
-                let tension = prescribed_tension(law, position) * parameters.tension[i];
-                SVector::from(cable.prescribed_residual(position, anchor, tension, z.into()))
+                let tension = prescribed_tension(law, position) * parameters.cables[i].tension;
+                SVector::from(cable.prescribed_residual(position, tension, z.into()))
             },
         )?;
         paths[i] = path.into();
@@ -68,16 +67,17 @@ pub(super) fn paths<D: DualNum<Primitive = f64> + Copy>(
     }
 
     let cables = robot.equilibrium();
-    let anchors: Vec<Vec2> = cables.iter().map(|&i| robot.cables[i].anchor).collect();
     let shapes: Vec<&CableShape> = cables.iter().filter_map(|&i| statics.cables.get(i)).collect();
     let unknowns: Vec<f64> = shapes.iter().flat_map(|shape| [shape.t0.x, shape.t0.y, shape.length]).collect();
+    let of_unknowns: Vec<_> = cables.iter().map(|&i| CableModel::of(robot, i)).collect();
+    let of_all: Vec<_> = cables.iter().map(|&i| CableModel::with(robot, &parameters, i)).collect();
     let path: [_; POINT] = follow(
         SVector::from(<[f64; POINT]>::try_from(unknowns).ok()?),
         |z| {
             let (fixed, load) = ([fixed.x.into(), fixed.y.into()], load.map(|force| force.re().into()));
-            SVector::from(CableModel::of(robot).equilibrium_residual::<POINT>(fixed, &anchors, load, z.into()))
+            SVector::from(CableModel::equilibrium_residual::<POINT>(&of_unknowns, fixed, load, z.into()))
         },
-        |z| SVector::from(cable.equilibrium_residual::<POINT>(position, &anchors, load, z.into())),
+        |z| SVector::from(CableModel::equilibrium_residual::<POINT>(&of_all, position, load, z.into())),
     )?
     .into();
     for (&i, path) in cables.iter().zip(path.chunks_exact(3)) {

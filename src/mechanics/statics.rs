@@ -14,6 +14,7 @@ use nalgebra::{Const, OMatrix, SVector, ToTypenum};
 use num_dual::{DualSVec64, jacobian};
 
 use super::cable::{CableModel, prescribed_tension};
+use crate::mechanics::Material;
 use crate::robot::{Robot, Vec2};
 
 /// The unknowns of the two cables that hold a point, (t₀, L) of each.
@@ -173,22 +174,22 @@ pub struct Failure {
 /// # Errors
 /// [`Infeasible`] with the reason and the cable; `NotConverged` where an iteration failed.
 pub fn solve(robot: &Robot, position: Vec2) -> Result<Statics, Failure> {
-    let cable = CableModel::<f64>::of(robot);
+    let shape = |i, (t0, length)| CableModel::<f64>::of(robot, i).shape(position, t0, length);
     let mut shapes: Vec<Option<CableShape>> = vec![None; robot.cables.len()];
     // Every cable that has a shape gets one, so that as much as possible can be drawn; the first fault counts.
     let mut fault = None;
     for i in robot.prescribed() {
         match prescribed(robot, i, position) {
-            Ok((t0, length)) => shapes[i] = Some(cable.shape(position, t0, length)),
+            Ok(end) => shapes[i] = Some(shape(i, end)),
             Err(reason) => fault = fault.or(Some(reason)),
         }
     }
     let reason = match fault {
         Some(reason) => reason,
-        None => match equilibrium(robot, position, load(robot, shapes.iter().flatten())) {
+        None => match equilibrium(robot, position, load(robot, &shapes)) {
             Ok(ends) => {
-                for (&i, (t0, length)) in robot.equilibrium().iter().zip(ends) {
-                    shapes[i] = Some(cable.shape(position, t0, length));
+                for (&i, end) in robot.equilibrium().iter().zip(ends) {
+                    shapes[i] = Some(shape(i, end));
                 }
                 let cables = shapes.into_iter().flatten().collect();
                 return Ok(Statics { position, cables });
@@ -199,12 +200,15 @@ pub fn solve(robot: &Robot, position: Vec2) -> Result<Statics, Failure> {
     Err(Failure { reason, cables: shapes })
 }
 
-/// What the equilibrium cables have to balance: minus the platform's weight and the prescribed cables' forces.
-fn load<'a>(robot: &Robot, prescribed: impl Iterator<Item = &'a CableShape>) -> Vec2 {
-    let cable = CableModel::<f64>::of(robot);
+/// What the equilibrium cables have to balance: minus the platform's weight and the forces of the prescribed cables, those
+/// that have a shape.
+fn load(robot: &Robot, shapes: &[Option<CableShape>]) -> Vec2 {
     let own_weight = Vec2::new(0.0, robot.platform_mass * robot.gravity);
-    prescribed
-        .fold(own_weight, |load, shape| load - Vec2::from(cable.platform_force([shape.t0.x, shape.t0.y], shape.length)))
+    let prescribed = shapes.iter().enumerate().filter_map(|(i, shape)| Some((i, shape.as_ref()?)));
+    prescribed.fold(own_weight, |load, (i, shape)| {
+        let force = CableModel::<f64>::of(robot, i).platform_force([shape.t0.x, shape.t0.y], shape.length);
+        load - Vec2::from(force)
+    })
 }
 
 impl CableModel<f64> {
@@ -238,24 +242,19 @@ fn chord(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), Infeasi
 
 /// (t₀, L) of the prescribed cable i.
 fn prescribed(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), StaticsError> {
-    let (cable, dual_cable) = (CableModel::<f64>::of(robot), CableModel::of(robot));
+    let (material, dual_cable) = (Material::of(robot, i), CableModel::of(robot, i));
     let (chord, distance) = chord(robot, i, position)?;
     let tension = prescribed_tension(robot.cables[i].tension, position.into());
     if !(tension > 0.0 && tension.is_finite()) {
         return Err(Infeasible::NoTension { cable: i, tension }.into());
     }
     let straight = chord * (tension / distance);
-    let start = SVector::from([straight.x, straight.y, distance / cable.material.stretch(tension)]);
+    let start = SVector::from([straight.x, straight.y, distance / material.stretch(tension)]);
     let scale = SVector::from([distance, distance, tension]);
     let residual = |part: f64, z: SVector<DualSVec64<3>, 3>| {
         let tension = DualSVec64::from(tension);
         let position = [DualSVec64::from(position.x), DualSVec64::from(position.y)];
-        SVector::from(dual_cable.with_weight(part).prescribed_residual(
-            position,
-            robot.cables[i].anchor,
-            tension,
-            z.into(),
-        ))
+        SVector::from(dual_cable.with_weight(part).prescribed_residual(position, tension, z.into()))
     };
     let z = turn_weight_on(start, &scale, residual, |z| z[2] > 0.0).map_err(|stop| match stop {
         Stop::Fold { .. } => Infeasible::TooSlack { cable: i, tension }.into(),
@@ -266,29 +265,25 @@ fn prescribed(robot: &Robot, i: usize, position: Vec2) -> Result<(Vec2, f64), St
 
 /// (t₀, L) of the equilibrium cables, which together pull with `load`.
 fn equilibrium(robot: &Robot, position: Vec2, load: Vec2) -> Result<Vec<(Vec2, f64)>, StaticsError> {
-    let (cable, dual_cable) = (CableModel::<f64>::of(robot), CableModel::of(robot));
     let cables = robot.equilibrium();
+    let models: Vec<CableModel<f64>> = cables.iter().map(|&i| CableModel::of(robot, i)).collect();
+    let dual_models: Vec<_> = cables.iter().map(|&i| CableModel::of(robot, i)).collect();
     let chords: Vec<(Vec2, f64)> = cables.iter().map(|&i| chord(robot, i, position)).collect::<Result<_, _>>()?;
     let directions: Vec<Vec2> = chords.iter().map(|&(chord, distance)| chord / distance).collect();
     let tensions = straight_tensions(robot, &directions, load)?;
     let start = SVector::from_fn(|i, _| {
         let (k, tension) = (i / 3, tensions[i / 3]);
         match i % 3 {
-            2 => chords[k].1 / cable.material.stretch(tension),
+            2 => chords[k].1 / models[k].material.stretch(tension),
             axis => directions[k][axis] * tension,
         }
     });
     let force = tensions.iter().copied().fold(0.0, f64::max);
     let scale = SVector::from_fn(|i, _| chords.get(i / 2).map_or(force, |&(_, distance)| distance));
-    let anchors: Vec<Vec2> = cables.iter().map(|&i| robot.cables[i].anchor).collect();
     let residual = |part: f64, z: SVector<DualSVec64<POINT>, POINT>| {
         let dual = |v: Vec2| [DualSVec64::from(v.x), DualSVec64::from(v.y)];
-        SVector::from(dual_cable.with_weight(part).equilibrium_residual::<POINT>(
-            dual(position),
-            &anchors,
-            dual(load),
-            z.into(),
-        ))
+        let models: Vec<_> = dual_models.iter().map(|cable| cable.with_weight(part)).collect();
+        SVector::from(CableModel::equilibrium_residual::<POINT>(&models, dual(position), dual(load), z.into()))
     };
     let each = |z: &SVector<f64, POINT>| -> Vec<(Vec2, f64)> {
         z.as_slice().chunks_exact(3).map(|z| (Vec2::new(z[0], z[1]), z[2])).collect()
@@ -300,7 +295,8 @@ fn equilibrium(robot: &Robot, position: Vec2, load: Vec2) -> Result<Vec<(Vec2, f
             // The slackest one has the smallest tension for its length; of equal ones it is the last.
             let tautness = each(&last)
                 .into_iter()
-                .map(|(t0, length)| Vec2::from(cable.platform_force([t0.x, t0.y], length)).norm() / length);
+                .zip(&models)
+                .map(|((t0, length), cable)| Vec2::from(cable.platform_force([t0.x, t0.y], length)).norm() / length);
             let slackest = cables.iter().zip(tautness).rev().min_by(|a, b| a.1.total_cmp(&b.1));
             Err(Infeasible::GoesSlack { cable: slackest.map_or(cables[0], |(&cable, _)| cable) }.into())
         }
@@ -315,8 +311,9 @@ fn straight_tensions(robot: &Robot, directions: &[Vec2], load: Vec2) -> Result<[
     let (e_a, e_b) = (directions[0], directions[1]);
     let sine = e_a.perp(&e_b);
     let tensions = [load.perp(&e_b) / sine, e_a.perp(&load) / sine];
-    // Nearly collinear, or so that the tensions leave every scale of the material.
-    let largest = 1e9 * robot.axial_stiffness().max(load.norm());
+    // Nearly collinear, or so that the tensions leave every scale of the materials.
+    let stiffest = robot.axial_stiffness(cables[0]).max(robot.axial_stiffness(cables[1]));
+    let largest = 1e9 * stiffest.max(load.norm());
     if sine.abs() < ONE_LINE || !tensions.iter().all(|tension| tension.abs() < largest) {
         return Err(Infeasible::OneLine { cables });
     }
@@ -443,8 +440,7 @@ fn relative<const N: usize>(change: &SVector<f64, N>, z: &SVector<f64, N>) -> f6
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mechanics::Material;
-    use crate::robot::{Cable, RobotSpec, Strain, TensionLaw, paper, paper_spec};
+    use crate::robot::{Cable, CableMaterial, RobotSpec, Strain, TensionLaw, paper, paper_spec};
 
     /// The platform near an anchor and far from the origin: positions have 1e-15 m of rounding, the cable 1e-6 m.
     #[test]
@@ -456,7 +452,7 @@ mod tests {
             let shape = &statics.cables[1];
             let stretched = gap * std::f64::consts::SQRT_2;
             // So short a cable is straight: its length follows from its tension alone.
-            let expected = stretched / Material::of(&robot).stretch(shape.tension_at_platform);
+            let expected = stretched / Material::of(&robot, 1).stretch(shape.tension_at_platform);
             let error = (shape.length / expected - 1.0).abs();
             assert!(error < 1e-3 * gap.max(1e-5) + 4e-15 / gap, "{gap} m away: {error}");
         }
@@ -466,12 +462,14 @@ mod tests {
     /// than it moves anything else.
     #[test]
     fn a_shape_is_found_where_an_element_carries_next_to_nothing() {
-        let cable = |x, y, tension| Cable { anchor: Vec2::new(x, y), tension };
+        let cable = |x, y, tension| Cable::new([x, y], tension);
         let robot = Robot::new(RobotSpec {
-            youngs_modulus: 1.84e6,
-            area: 5e-5,
-            mass_per_length: 0.128,
-            strain: Strain::Engineering,
+            material: CableMaterial {
+                youngs_modulus: 1.84e6,
+                area: 5e-5,
+                mass_per_length: 0.128,
+                strain: Strain::Engineering,
+            },
             platform_mass: 4.84e-4,
             cables: vec![
                 cable(-9.81, -2.125, TensionLaw::Equilibrium),
@@ -509,14 +507,14 @@ mod tests {
             (1, [[-0.5, -2.0], [1.0, -1.0]]),
             (0, [[-1.0, -1.0], [0.5, -2.0]]),
         ] {
-            let cable = |[x, y]: [f64; 2], tension| Cable { anchor: Vec2::new(x, y), tension };
             let cables = vec![
-                cable(anchors[0], TensionLaw::Equilibrium),
-                cable(anchors[1], TensionLaw::Equilibrium),
-                cable([0.0, 5.0], TensionLaw::Constant(20.0)),
+                Cable::new(anchors[0], TensionLaw::Equilibrium),
+                Cable::new(anchors[1], TensionLaw::Equilibrium),
+                Cable::new([0.0, 5.0], TensionLaw::Constant(20.0)),
             ];
             let robot = |mass_per_length| {
-                let spec = RobotSpec { mass_per_length, platform_mass: 0.1, cables: cables.clone(), ..paper_spec() };
+                let material = CableMaterial { mass_per_length, ..paper_spec().material };
+                let spec = RobotSpec { material, platform_mass: 0.1, cables: cables.clone(), ..paper_spec() };
                 Robot::new(spec).expect("a legal robot")
             };
             // 19 N are for them, and half of what they weigh hangs from the platform: 2 N, and 20 N or more.

@@ -2,7 +2,7 @@
 //!
 //! Seen from the mesh, material flows through element k (from 0 at the platform) with the inflow w = −(k + 1) L̇/n at its
 //! outer end, where it is fastest. Transverse waves run against the material with c = √(N/(λ μ)), μ per unstretched
-//! length. Where |w| reaches c, no wave gets back to the platform any more.
+//! length and the law N(λ) those of the cable. Where |w| reaches c, no wave gets back to the platform any more.
 
 use crate::mechanics::{CableShape, LengthRates, Material, Statics};
 use crate::robot::{Robot, Vec2};
@@ -27,12 +27,12 @@ pub struct WaveLimit {
 /// `None` where no cable moves. Of cables that reach it together, as in a symmetric pose, one that is reeled in counts: along
 /// it waves are what grows. O(n), from the statics and their `rates` along the motion alone.
 pub fn wave_limit(robot: &Robot, statics: &Statics, rates: &[LengthRates]) -> Option<WaveLimit> {
-    let material = Material::of(robot);
     let elements = robot.elements as f64;
     let of_cable = |(cable, (shape, rate)): (usize, (&CableShape, &LengthRates))| {
+        let (material, mass_per_length) = (Material::of(robot, cable), robot.material_of(cable).mass_per_length);
         let of_element = |(k, force): (usize, &Vec2)| {
             let force = force.norm();
-            let wave = (force / (material.stretch(force) * robot.mass_per_length)).sqrt();
+            let wave = (force / (material.stretch(force) * mass_per_length)).sqrt();
             wave / (rate.first.abs() * (k + 1) as f64 / elements)
         };
         let speed = shape.forces.iter().enumerate().map(of_element).fold(f64::INFINITY, f64::min);

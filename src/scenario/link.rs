@@ -1,14 +1,18 @@
 //! A scenario as a link: the text after `#s=` in the page's address. Durable: links made today stay readable.
 //!
-//! A link is the version mark `1` and then bytes in base64url without padding. The bytes are the fields below in this
-//! order, and behind them the CRC-32 (that of zlib) of the version mark and all these bytes, lowest byte first.
+//! A link is a version mark and then bytes in base64url without padding. The bytes are the fields below in this order, and
+//! behind them the CRC-32 (that of zlib) of the version mark and all these bytes, lowest byte first.
+//!
+//! The version mark is `2` where a cable has a material of its own, and else `1`, so that older programs open all that they
+//! know.
 //!
 //! | field | form |
 //! |---|---|
 //! | flags | one byte: 1 a name is given, 2 engineering strain (else Green), 4 tangent stiffness (else secant), added up |
 //! | name, if given | its length in bytes as a whole number, then that many bytes of UTF-8 |
 //! | gravity, E, A, μ, platform's mass | five numbers |
-//! | cables | their count as a whole number; of each its anchor x, y: two numbers; then one byte: 0 equilibrium, 1 constant: a number, 2 by h₀, hₓ, `h_y`, v₀, vₓ, `v_y`: six numbers |
+//! | cables | their count as a whole number; of each its anchor x, y: two numbers; then one byte: 0 equilibrium, 1 constant: a number, 2 by h₀, hₓ, `h_y`, v₀, vₓ, `v_y`: six numbers; then in version `2` alone what it has of its own |
+//! | of its own | one byte: 1 E, 2 A, 4 μ, 8 Green strain, 16 engineering strain, added up; then of E, A and μ those that are given, in this order, a number each |
 //! | elements per cable | whole number |
 //! | α, β, position x, y, direction x, y, speed | seven numbers |
 //!
@@ -33,17 +37,26 @@
 
 use base64::{Engine as _, prelude::BASE64_URL_SAFE_NO_PAD};
 
-use crate::robot::{Damping, Faults, Linearisation, Strain, TensionLaw};
-use crate::scenario::v1::{Cable, Material, Motion, Platform, Scenario, Schema};
+use crate::robot::{Damping, Faults, Linearisation, OwnMaterial, Strain, TensionLaw};
+use crate::scenario::json::{Cable, Material, Motion, Platform, SCHEMA, Scenario};
 
 /// What stands between the page's address and the text of [`encode`].
 pub const MARK: &str = "#s=";
-/// The first character of a link in this format. Later formats begin with the digits after it.
-const VERSION: char = '1';
+/// The first character of a link of the first version.
+const FIRST: char = '1';
+/// That of the second version, in which cables may have a material of their own. Later versions begin with the digits after
+/// it.
+const SECOND: char = '2';
 
 const NAMED: u8 = 1;
 const ENGINEERING: u8 = 2;
 const TANGENT: u8 = 4;
+
+const OWN_MODULUS: u8 = 1;
+const OWN_AREA: u8 = 2;
+const OWN_MASS: u8 = 4;
+const OWN_GREEN: u8 = 8;
+const OWN_ENGINEERING: u8 = 16;
 
 /// k where an exponent follows; alone, where a double does.
 const LONG: u64 = 7;
@@ -68,10 +81,11 @@ pub enum LinkError {
 ///
 /// [`decode`] gives back the same scenario to the last bit if it is physical, and else tells why it is not.
 pub fn encode(scenario: &Scenario) -> String {
+    let version = if scenario.schema() == SCHEMA { FIRST } else { SECOND };
     let mut out = Writer::default();
-    out.scenario(scenario);
-    out.0.extend(checksum(&out.0));
-    format!("{VERSION}{}", BASE64_URL_SAFE_NO_PAD.encode(out.0))
+    out.scenario(scenario, version);
+    out.0.extend(checksum(version, &out.0));
+    format!("{version}{}", BASE64_URL_SAFE_NO_PAD.encode(out.0))
 }
 
 /// The scenario in `text`, which is what follows `#s=`.
@@ -86,21 +100,23 @@ pub fn decode(text: &str) -> Result<Scenario, LinkError> {
     let text = percent_encoding::percent_decode_str(text).decode_utf8_lossy();
     let text = text.split('&').next().unwrap_or_default();
     let text = text.trim_start().trim_end_matches(|c: char| !(c.is_ascii_alphanumeric() || c == '-' || c == '_'));
-    let bytes = match text.strip_prefix(VERSION) {
-        Some(rest) => BASE64_URL_SAFE_NO_PAD.decode(rest).map_err(|_| LinkError::Damaged)?,
-        None if text.starts_with(|c| ('2'..='9').contains(&c)) => return Err(LinkError::Newer),
-        None => return Err(LinkError::Damaged),
+    let mut rest = text.chars();
+    let version = match rest.next() {
+        Some(version @ (FIRST | SECOND)) => version,
+        Some('3'..='9') => return Err(LinkError::Newer),
+        _ => return Err(LinkError::Damaged),
     };
+    let bytes = BASE64_URL_SAFE_NO_PAD.decode(rest.as_str()).map_err(|_| LinkError::Damaged)?;
     let (fields, sum) = bytes.split_last_chunk().ok_or(LinkError::Damaged)?;
     let mut reader = Reader(fields);
-    let scenario = if checksum(fields) == *sum { reader.scenario() } else { None };
+    let scenario = if checksum(version, fields) == *sum { reader.scenario(version) } else { None };
     let scenario = scenario.filter(|_| reader.0.is_empty()).ok_or(LinkError::Damaged)?;
     Ok(scenario.to_robot().map(|_| scenario)?)
 }
 
-/// Of the version too: a link of a later format whose mark was changed to this one's is damaged.
-fn checksum(fields: &[u8]) -> [u8; 4] {
-    crc32(&[&[VERSION as u8], fields].concat()).to_le_bytes()
+/// Of the version too: a link whose mark was changed to another one's is damaged.
+fn checksum(version: char, fields: &[u8]) -> [u8; 4] {
+    crc32(&[&[version as u8], fields].concat()).to_le_bytes()
 }
 
 /// CRC-32 as zlib computes it, bit by bit: a link is short, and a table would take 16 kB of every program.
@@ -113,8 +129,8 @@ fn crc32(bytes: &[u8]) -> u32 {
 struct Writer(Vec<u8>);
 
 impl Writer {
-    fn scenario(&mut self, scenario: &Scenario) {
-        let Scenario { schema: Schema::V1, name, gravity, cable, platform, cables, damping, motion, .. } = scenario;
+    fn scenario(&mut self, scenario: &Scenario, version: char) {
+        let Scenario { name, gravity, cable, platform, cables, damping, motion, .. } = scenario;
         let strain = ENGINEERING * u8::from(cable.strain == Strain::Engineering);
         let linearisation = TANGENT * u8::from(scenario.linearisation == Linearisation::Tangent);
         self.0.push(NAMED * u8::from(name.is_some()) + strain + linearisation);
@@ -124,7 +140,7 @@ impl Writer {
         }
         self.numbers(&[*gravity, cable.youngs_modulus, cable.area, cable.mass_per_length, platform.mass]);
         self.whole(cables.len() as u64);
-        for Cable { anchor, tension } in cables {
+        for Cable { anchor, tension, cable: own } in cables {
             self.numbers(anchor);
             match tension {
                 TensionLaw::Equilibrium => self.0.push(0),
@@ -137,10 +153,27 @@ impl Writer {
                     self.numbers(&[*horizontal, *vertical].concat());
                 }
             }
+            if version == SECOND {
+                self.own(own);
+            }
         }
         self.whole(scenario.elements_per_cable as u64);
         let Motion { position: [x, y], direction: [dx, dy], speed } = *motion;
         self.numbers(&[damping.alpha, damping.beta, x, y, dx, dy, speed]);
+    }
+
+    fn own(&mut self, own: &OwnMaterial) {
+        let OwnMaterial { youngs_modulus, area, mass_per_length, strain } = *own;
+        let strain = match strain {
+            None => 0,
+            Some(Strain::Green) => OWN_GREEN,
+            Some(Strain::Engineering) => OWN_ENGINEERING,
+        };
+        let numbers = [(OWN_MODULUS, youngs_modulus), (OWN_AREA, area), (OWN_MASS, mass_per_length)];
+        self.0.push(numbers.iter().filter(|(_, number)| number.is_some()).fold(strain, |sum, (flag, _)| sum + flag));
+        for number in numbers.into_iter().filter_map(|(_, number)| number) {
+            self.number(number);
+        }
     }
 
     fn numbers(&mut self, numbers: &[f64]) {
@@ -187,11 +220,10 @@ impl Writer {
 struct Reader<'a>(&'a [u8]);
 
 impl Reader<'_> {
-    fn scenario(&mut self) -> Option<Scenario> {
+    fn scenario(&mut self, version: char) -> Option<Scenario> {
         let [flags] = self.bytes().filter(|[flags]| *flags < 2 * TANGENT)?;
         let has = |flag| flags & flag != 0;
         Some(Scenario {
-            schema: Schema::V1,
             name: if has(NAMED) { Some(self.text()?) } else { None },
             gravity: self.number()?,
             cable: Material {
@@ -202,7 +234,7 @@ impl Reader<'_> {
             },
             platform: Platform { mass: self.number()? },
             // Grows with what is really there, whatever the count says.
-            cables: (0..self.whole()?).map(|_| self.cable()).collect::<Option<_>>()?,
+            cables: (0..self.whole()?).map(|_| self.cable(version)).collect::<Option<_>>()?,
             elements_per_cable: usize::try_from(self.whole()?).unwrap_or(usize::MAX),
             damping: Damping { alpha: self.number()?, beta: self.number()? },
             linearisation: if has(TANGENT) { Linearisation::Tangent } else { Linearisation::Secant },
@@ -210,7 +242,7 @@ impl Reader<'_> {
         })
     }
 
-    fn cable(&mut self) -> Option<Cable> {
+    fn cable(&mut self, version: char) -> Option<Cable> {
         let anchor = self.numbers()?;
         let tension = match self.bytes()? {
             [0] => TensionLaw::Equilibrium,
@@ -218,7 +250,21 @@ impl Reader<'_> {
             [2] => TensionLaw::Hypot { horizontal: self.numbers()?, vertical: self.numbers()? },
             _ => return None,
         };
-        Some(Cable { anchor, tension })
+        let cable = if version == SECOND { self.own()? } else { OwnMaterial::default() };
+        Some(Cable { anchor, tension, cable })
+    }
+
+    fn own(&mut self) -> Option<OwnMaterial> {
+        let [flags] = self.bytes().filter(|[flags]| *flags < 2 * OWN_ENGINEERING)?;
+        let strain = match flags & (OWN_GREEN | OWN_ENGINEERING) {
+            0 => None,
+            OWN_GREEN => Some(Strain::Green),
+            OWN_ENGINEERING => Some(Strain::Engineering),
+            _ => return None,
+        };
+        let mut number = |flag| if flags & flag == 0 { Some(None) } else { self.number().map(Some) };
+        let (youngs_modulus, area, mass_per_length) = (number(OWN_MODULUS)?, number(OWN_AREA)?, number(OWN_MASS)?);
+        Some(OwnMaterial { youngs_modulus, area, mass_per_length, strain })
     }
 
     fn text(&mut self) -> Option<String> {

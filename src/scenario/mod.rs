@@ -2,6 +2,7 @@
 //! scenario as a link; the messages of the text version.
 
 pub mod file;
+pub mod json;
 mod layout;
 pub mod link;
 pub mod messages;
@@ -10,9 +11,8 @@ mod parameter;
 pub mod presets;
 mod reader;
 pub mod report;
-pub mod v1;
 
+pub use json::Scenario;
 pub use parameter::Parameter;
 pub use presets::Preset;
 pub use report::Report;
-pub use v1::Scenario;

@@ -6,12 +6,18 @@ use crate::scenario::Scenario;
 /// A number of a scenario that can be changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Parameter {
-    /// E.
+    /// E of the cables that have none of their own.
     YoungsModulus,
-    /// A.
+    /// A of the cables that have none of their own.
     Area,
-    /// μ.
+    /// μ of the cables that have none of their own.
     MassPerLength,
+    /// The own E of a cable (0-based).
+    OwnYoungsModulus(usize),
+    /// The own A of a cable (0-based).
+    OwnArea(usize),
+    /// The own μ of a cable (0-based).
+    OwnMassPerLength(usize),
     /// m.
     PlatformMass,
     /// g.
@@ -48,7 +54,8 @@ impl Parameter {
             let law = [Self::Tension(cable)].into_iter();
             let law = law.chain((0..3).map(move |i| Self::Horizontal(cable, i)));
             let law = law.chain((0..3).map(move |i| Self::Vertical(cable, i)));
-            [Self::Anchor(cable, 0), Self::Anchor(cable, 1)].into_iter().chain(law)
+            let own = [Self::OwnYoungsModulus(cable), Self::OwnArea(cable), Self::OwnMassPerLength(cable)];
+            [Self::Anchor(cable, 0), Self::Anchor(cable, 1)].into_iter().chain(law).chain(own)
         };
         let before = [Self::Gravity, Self::YoungsModulus, Self::Area, Self::MassPerLength, Self::PlatformMass];
         let model = [Self::Elements, Self::Alpha, Self::Beta];
@@ -58,7 +65,43 @@ impl Parameter {
         all.filter(|parameter| parameter.is_in(scenario)).collect()
     }
 
-    /// Its value in SI units; 0 for a coefficient that the cable's law does not have.
+    /// That number of one cable (0-based) alone, for those that cables can have of their own.
+    pub fn own(self, cable: usize) -> Option<Self> {
+        Some(match self {
+            Self::YoungsModulus => Self::OwnYoungsModulus(cable),
+            Self::Area => Self::OwnArea(cable),
+            Self::MassPerLength => Self::OwnMassPerLength(cable),
+            _ => return None,
+        })
+    }
+
+    /// The number that all cables share which an own one takes the place of.
+    pub fn common(self) -> Option<Self> {
+        Some(match self {
+            Self::OwnYoungsModulus(_) => Self::YoungsModulus,
+            Self::OwnArea(_) => Self::Area,
+            Self::OwnMassPerLength(_) => Self::MassPerLength,
+            _ => return None,
+        })
+    }
+
+    /// Gives a cable a number of its own, in SI units. All other numbers are there or not, and are [set](Self::set).
+    pub fn give(self, scenario: &mut Scenario, value: f64) {
+        match self.own_place(scenario) {
+            Some(place) => *place = Some(value),
+            None => self.set(scenario, value),
+        }
+    }
+
+    /// Takes away what a cable has of its own, so that the common number counts again; nothing happens to other numbers.
+    pub fn take_away(self, scenario: &mut Scenario) {
+        if let Some(place) = self.own_place(scenario) {
+            *place = None;
+        }
+    }
+
+    /// Its value in SI units; 0 for a coefficient that the cable's law does not have, and for a number that the cable does
+    /// not have of its own.
     pub fn get(self, scenario: &Scenario) -> f64 {
         // One way to reach each number, for reading and writing alike.
         let mut copy = scenario.clone();
@@ -73,11 +116,18 @@ impl Parameter {
         self.place(&mut copy).map_or(0.0, |place| *place)
     }
 
-    /// Makes it the same as in another scenario, to the last bit.
+    /// Makes it the same as in another scenario, to the last bit. What a cable does not have of its own there, it has not
+    /// here.
     pub fn copy(self, from: &Scenario, to: &mut Scenario) {
         match self {
             Self::Elements => to.elements_per_cable = from.elements_per_cable,
             Self::Direction => to.motion.direction = from.motion.direction,
+            Self::OwnYoungsModulus(_) | Self::OwnArea(_) | Self::OwnMassPerLength(_) => {
+                let value = self.own_place(&mut from.clone()).and_then(|place| *place);
+                if let Some(place) = self.own_place(to) {
+                    *place = value;
+                }
+            }
             _ => self.set(to, self.get(from)),
         }
     }
@@ -88,6 +138,9 @@ impl Parameter {
             Self::YoungsModulus => "cable.youngs_modulus".into(),
             Self::Area => "cable.area".into(),
             Self::MassPerLength => "cable.mass_per_length".into(),
+            Self::OwnYoungsModulus(cable) => format!("cables[{cable}].cable.youngs_modulus"),
+            Self::OwnArea(cable) => format!("cables[{cable}].cable.area"),
+            Self::OwnMassPerLength(cable) => format!("cables[{cable}].cable.mass_per_length"),
             Self::PlatformMass => "platform.mass".into(),
             Self::Gravity => "gravity".into(),
             Self::Alpha => "damping.alpha".into(),
@@ -109,7 +162,7 @@ impl Parameter {
         matches!(self, Self::Elements | Self::Direction) || self.place(&mut scenario.clone()).is_some()
     }
 
-    /// Sets it, in SI units.
+    /// Sets it, in SI units, if it is in the scenario.
     pub fn set(self, scenario: &mut Scenario, value: f64) {
         if self == Self::Elements {
             // Saturates; the robot's validation says what is allowed.
@@ -125,8 +178,24 @@ impl Parameter {
         }
     }
 
+    /// Where the number of a cable's own is or would be.
+    fn own_place(self, scenario: &mut Scenario) -> Option<&mut Option<f64>> {
+        let (Self::OwnYoungsModulus(cable) | Self::OwnArea(cable) | Self::OwnMassPerLength(cable)) = self else {
+            return None;
+        };
+        let own = &mut scenario.cables.get_mut(cable)?.cable;
+        Some(match self {
+            Self::OwnYoungsModulus(_) => &mut own.youngs_modulus,
+            Self::OwnArea(_) => &mut own.area,
+            _ => &mut own.mass_per_length,
+        })
+    }
+
     fn place(self, scenario: &mut Scenario) -> Option<&mut f64> {
         match self {
+            Self::OwnYoungsModulus(_) | Self::OwnArea(_) | Self::OwnMassPerLength(_) => {
+                self.own_place(scenario)?.as_mut()
+            }
             Self::YoungsModulus => Some(&mut scenario.cable.youngs_modulus),
             Self::Area => Some(&mut scenario.cable.area),
             Self::MassPerLength => Some(&mut scenario.cable.mass_per_length),
@@ -176,7 +245,10 @@ mod tests {
     #[test]
     fn every_number_of_a_file_is_a_parameter_with_its_path_and_its_value() {
         for preset in presets::PRESETS {
-            let scenario = preset.scenario();
+            let mut scenario = preset.scenario();
+            scenario.cables[0].cable.youngs_modulus = Some(2e11);
+            scenario.cables[1].cable.area = Some(2e-5);
+            scenario.cables[2].cable.mass_per_length = Some(0.7);
             let mut in_file = Vec::new();
             numbers(&serde_json::to_value(&scenario).expect("JSON"), "", &mut in_file);
             let value = |parameter: &Parameter| (parameter.path(), parameter.get(&scenario));
@@ -190,7 +262,10 @@ mod tests {
 
     #[test]
     fn what_is_set_is_what_is_read() {
-        let scenario = presets::PRESETS[0].scenario();
+        let mut scenario = presets::PRESETS[0].scenario();
+        for parameter in [Parameter::OwnYoungsModulus(1), Parameter::OwnArea(1), Parameter::OwnMassPerLength(2)] {
+            parameter.give(&mut scenario, 0.25);
+        }
         for parameter in Parameter::all(&scenario).into_iter().chain([Parameter::Direction]) {
             let mut changed = scenario.clone();
             let value = if parameter == Parameter::Elements { 7.0 } else { 0.625 };

@@ -1,7 +1,7 @@
 //! Built-in scenarios. To add one, add an entry to [`PRESETS`]; the tests then analyse it too.
 
-use crate::robot::{self, Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2};
-use crate::scenario::v1::{Motion, Scenario};
+use crate::robot::{self, Cable, CableMaterial, Damping, Linearisation, RobotSpec, Strain, TensionLaw};
+use crate::scenario::json::{Motion, Scenario};
 
 /// A built-in scenario.
 #[derive(Clone, Copy, Debug)]
@@ -87,11 +87,11 @@ pub fn find(name: &str) -> Option<&'static Preset> {
 }
 
 fn free(x: f64, y: f64) -> Cable {
-    Cable { anchor: Vec2::new(x, y), tension: TensionLaw::Equilibrium }
+    Cable::new([x, y], TensionLaw::Equilibrium)
 }
 
 fn constant(x: f64, y: f64, tension: f64) -> Cable {
-    Cable { anchor: Vec2::new(x, y), tension: TensionLaw::Constant(tension) }
+    Cable::new([x, y], TensionLaw::Constant(tension))
 }
 
 // In these four the tangent stiffness, which simplifies nothing. Fibres and steel ropes damp their first vibration by
@@ -102,10 +102,7 @@ fn constant(x: f64, y: f64, tension: f64) -> Cable {
 fn slack() -> RobotSpec {
     RobotSpec {
         gravity: 9.81,
-        youngs_modulus: 5e6,
-        area: 3.1e-4,
-        mass_per_length: 0.27,
-        strain: Strain::Green,
+        material: CableMaterial { youngs_modulus: 5e6, area: 3.1e-4, mass_per_length: 0.27, strain: Strain::Green },
         platform_mass: 2.0,
         cables: vec![free(-7.0, 4.5), free(7.0, 4.5), constant(-7.0, -4.5, 24.0), constant(7.0, -4.5, 24.0)],
         elements: 10,
@@ -119,10 +116,7 @@ fn slack() -> RobotSpec {
 fn building() -> RobotSpec {
     RobotSpec {
         gravity: 9.81,
-        youngs_modulus: 1e11,
-        area: 4.6e-5,
-        mass_per_length: 0.409,
-        strain: Strain::Green,
+        material: CableMaterial { youngs_modulus: 1e11, area: 4.6e-5, mass_per_length: 0.409, strain: Strain::Green },
         platform_mass: 300.0,
         cables: vec![free(-20.0, 20.0), free(20.0, 20.0), constant(-20.0, 0.0, 3000.0), constant(20.0, 0.0, 3000.0)],
         elements: 10,
@@ -136,10 +130,7 @@ fn building() -> RobotSpec {
 fn lab() -> RobotSpec {
     RobotSpec {
         gravity: 9.81,
-        youngs_modulus: 3e10,
-        area: 7e-7,
-        mass_per_length: 7e-4,
-        strain: Strain::Green,
+        material: CableMaterial { youngs_modulus: 3e10, area: 7e-7, mass_per_length: 7e-4, strain: Strain::Green },
         platform_mass: 0.3,
         cables: vec![free(-0.5, 0.8), free(0.5, 0.8), constant(-0.5, 0.0, 10.0), constant(0.5, 0.0, 10.0)],
         elements: 10,
@@ -152,10 +143,7 @@ fn lab() -> RobotSpec {
 fn five_cables() -> RobotSpec {
     RobotSpec {
         gravity: 9.81,
-        youngs_modulus: 1e11,
-        area: 7.4e-6,
-        mass_per_length: 0.065,
-        strain: Strain::Green,
+        material: CableMaterial { youngs_modulus: 1e11, area: 7.4e-6, mass_per_length: 0.065, strain: Strain::Green },
         platform_mass: 25.0,
         cables: vec![
             free(-4.7, 6.5),

@@ -145,6 +145,14 @@ impl<'a> Value<'a> {
         self.document.faults.borrow_mut().push(Fault::new(path, value, allowed));
     }
 
+    /// Notes that nothing may stand here: that it is `what` it is, and what is `allowed` instead.
+    pub(super) fn refuse(&self, what: &str, allowed: &str) {
+        if let Content::Json(text) = self.content {
+            let value = format!("{what} ({})", shown(text));
+            self.document.faults.borrow_mut().push(Fault::new(self.path.clone(), value, allowed));
+        }
+    }
+
     fn note_number(&self) {
         if let Content::Json(text) = self.content {
             self.document.numbers.borrow_mut().insert(self.path.clone(), shown(text));

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError, WaveLimit};
 use crate::robot::{Motion, Robot};
+use crate::scenario::Parameter;
 use crate::stability::steps::finish_watched;
 use crate::stability::{
     Critical, CriticalSearch, Eigenproblem, Instability, Method, NotConverged, Spectrum, unstable_eigenvalues,
@@ -158,12 +159,15 @@ impl std::fmt::Display for KindReport {
     }
 }
 
-/// A parameter's name in tables.
+/// A parameter's name in tables. What a cable has of its own has the name of its field in a scenario file.
 pub fn parameter(knob: Knob) -> String {
     match knob {
         Knob::YoungsModulus => "youngs_modulus".into(),
         Knob::Area => "area".into(),
         Knob::MassPerLength => "mass_per_length".into(),
+        Knob::OwnYoungsModulus(cable) => Parameter::OwnYoungsModulus(cable).path(),
+        Knob::OwnArea(cable) => Parameter::OwnArea(cable).path(),
+        Knob::OwnMassPerLength(cable) => Parameter::OwnMassPerLength(cable).path(),
         Knob::PlatformMass => "platform_mass".into(),
         Knob::Tension(cable) => format!("tension_{}", cable + 1),
         Knob::Alpha => "alpha".into(),

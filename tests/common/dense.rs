@@ -6,7 +6,7 @@ use tautline::Robot;
 use tautline::mechanics::{LengthRates, Statics};
 use tautline::robot::{Damping, Linearisation};
 
-use super::hung::Hung;
+use super::hung::{Hung, mass_per_length};
 
 /// M q̈ + C q̇ + K q = 0 with the unknowns: platform, then the inner nodes of cable 1 from the platform, of cable 2 …
 pub struct Dense {
@@ -37,14 +37,14 @@ pub struct Parts {
 impl Parts {
     /// The parts at a static shape.
     pub fn new(robot: &Robot, statics: &Statics, rates: &[LengthRates]) -> Self {
-        let (n, mu) = (robot.elements, robot.mass_per_length);
+        let n = robot.elements;
         let size = 2 * (1 + robot.cables.len() * (n - 1));
         let zeros = || DMatrix::<f64>::zeros(size, size);
         let (mut mass, mut flow, mut elastic, mut dynamic) = (zeros(), zeros(), zeros(), zeros());
-        let law = Hung::of(robot);
         mass[(0, 0)] = robot.platform_mass;
         mass[(1, 1)] = robot.platform_mass;
         for (i, (shape, rate)) in statics.cables.iter().zip(rates).enumerate() {
+            let (law, mu) = (Hung::of(robot, i), mass_per_length(robot, i));
             let l = shape.length / n as f64;
             let (l_rate, l_acceleration) = (rate.first / n as f64, rate.second / n as f64);
             // The first unknown of node k; none for the winch.

@@ -19,13 +19,20 @@ pub struct Hung {
 /// The force on the platform against the unstretched length, from very taut to very slack.
 pub type Curve = Vec<(f64, Vec2)>;
 
+/// μ of cable `i` of the robot: its own, or else that of the robot.
+pub fn mass_per_length(robot: &Robot, i: usize) -> f64 {
+    robot.cables[i].own.mass_per_length.unwrap_or(robot.material.mass_per_length)
+}
+
 impl Hung {
-    /// A cable of the robot.
-    pub fn of(robot: &Robot) -> Self {
+    /// Cable `i` of the robot: its own values, or else those of the robot.
+    pub fn of(robot: &Robot, i: usize) -> Self {
+        let (own, common) = (robot.cables[i].own, robot.material);
+        let modulus = own.youngs_modulus.unwrap_or(common.youngs_modulus);
         Self {
-            stiffness: robot.axial_stiffness(),
-            strain: robot.strain,
-            weight: robot.weight_per_length(),
+            stiffness: modulus * own.area.unwrap_or(common.area),
+            strain: own.strain.unwrap_or(common.strain),
+            weight: mass_per_length(robot, i) * robot.gravity,
             elements: robot.elements,
         }
     }

@@ -6,6 +6,7 @@ use tautline::stability::{Critical, Instability, Outcome, Solver, Spectrum};
 use tautline::{LocalProblem, Robot};
 
 use super::dense::Parts;
+use super::hung::mass_per_length;
 use super::referee::{Known, Referee};
 use super::unmatched;
 
@@ -97,11 +98,11 @@ fn shares(drawn: &Drawn, known: &Known) -> Vec<f64> {
             let (a, b) = (node(cable, k), node(cable, k + 1));
             a.norm_squared() + b.norm_squared() + a.dotc(&b).re
         };
-        drawn.local.statics.cables[cable].length * (0..robot.elements).map(of).sum::<f64>()
+        let mass = mass_per_length(robot, cable) * drawn.local.statics.cables[cable].length;
+        mass * (0..robot.elements).map(of).sum::<f64>()
     };
     let energies: Vec<f64> = (0..robot.cables.len()).map(energy).collect();
-    let platform = 3.0 * robot.elements as f64 * robot.platform_mass / robot.mass_per_length
-        * known.shape.rows(0, directions).norm_squared();
+    let platform = 3.0 * robot.elements as f64 * robot.platform_mass * known.shape.rows(0, directions).norm_squared();
     let total = platform + energies.iter().sum::<f64>();
     energies.iter().map(|energy| energy / total).collect()
 }

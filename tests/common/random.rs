@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use proptest::prelude::*;
 use tautline::mechanics::{self, Failure, Statics, StaticsError};
-use tautline::robot::{Cable, Damping, Linearisation, RobotSpec, Strain, TensionLaw, Vec2};
+use tautline::robot::{Cable, CableMaterial, Damping, Linearisation, OwnMaterial, RobotSpec, Strain, TensionLaw, Vec2};
 use tautline::{Motion, Robot};
 
 /// The same robots in every run, `cases` of them; `PROPTEST_RNG_SEED` and `PROPTEST_CASES` give others, and more.
@@ -53,22 +53,33 @@ pub fn robot(elements: Range<usize>) -> impl Strategy<Value = Robot> {
         (0.0..2.0, 0.0..0.01).prop_map(|(alpha, beta)| Damping { alpha, beta }),
         elements,
     );
-    let together = |((gravity, stiffness, mu, mass, strain, linearisation, damping, elements), cables)| {
-        let spec = RobotSpec {
-            gravity,
-            youngs_modulus: stiffness / 5e-5,
-            area: 5e-5,
-            mass_per_length: mu,
-            strain,
-            platform_mass: mass,
-            cables,
-            elements,
-            damping,
-            linearisation,
-        };
+    let together = |(physics, mut cables, own): (_, Vec<Cable>, Vec<OwnFactors>)| {
+        let (gravity, stiffness, mu, mass, strain, linearisation, damping, elements) = physics;
+        let material = CableMaterial { youngs_modulus: stiffness / 5e-5, area: 5e-5, mass_per_length: mu, strain };
+        for (cable, (modulus, area, mass, strain)) in cables.iter_mut().zip(own) {
+            cable.own = OwnMaterial {
+                youngs_modulus: modulus.map(|factor| factor * material.youngs_modulus),
+                area: area.map(|factor| factor * material.area),
+                mass_per_length: mass.map(|factor| factor * mu),
+                strain,
+            };
+        }
+        let spec = RobotSpec { gravity, material, platform_mass: mass, cables, elements, damping, linearisation };
         Robot::new(spec).expect("a robot")
     };
-    (physics, cables()).prop_map(together)
+    // One robot in three has cables with a material of their own.
+    let own = prop_oneof![2 => Just(Vec::new()), 1 => prop::collection::vec(own_factors(), 8)];
+    (physics, cables(), own).prop_map(together)
+}
+
+/// What a cable has of its own: E, A and μ in parts of those of the robot, and the strain measure.
+type OwnFactors = (Option<f64>, Option<f64>, Option<f64>, Option<Strain>);
+
+/// Each is there for one cable in two. E and A are up to five times larger or smaller than those of the robot, μ three times.
+fn own_factors() -> impl Strategy<Value = OwnFactors> {
+    let factor = |most: f64| prop::option::of((-1.0..1.0_f64).prop_map(move |part| most.powf(part)));
+    let strain = prop::option::of(prop_oneof![Just(Strain::Green), Just(Strain::Engineering)]);
+    (factor(5.0), factor(5.0), factor(3.0), strain)
 }
 
 /// Anchors near the corners of a rectangle 20 m × 10 m and then anywhere, or all of them anywhere; any two cables at
@@ -95,7 +106,7 @@ fn cables() -> impl Strategy<Value = Vec<Cable>> {
         let (a, b) = (a % anchors.len(), (a + step) % anchors.len());
         let b = if a == b { (a + 1) % anchors.len() } else { b };
         let tension = |i: usize| if i == a || i == b { TensionLaw::Equilibrium } else { laws[i] };
-        anchors.iter().enumerate().map(|(i, &anchor)| Cable { anchor, tension: tension(i) }).collect()
+        anchors.iter().enumerate().map(|(i, &anchor)| Cable::new(anchor, tension(i))).collect()
     })
 }
 
@@ -108,7 +119,7 @@ pub fn mirrored(robot: &Robot, motion: &Motion) -> (Robot, Motion) {
         }
         other => other,
     };
-    let cable = |cable: &Cable| Cable { anchor: flip(cable.anchor), tension: flip_law(cable.tension) };
+    let cable = |cable: &Cable| Cable { anchor: flip(cable.anchor), tension: flip_law(cable.tension), ..*cable };
     let cables = robot.cables.iter().rev().map(cable).collect();
     let robot = Robot::new(RobotSpec { cables, ..(**robot).clone() }).expect("a robot");
     let motion = Motion::new(flip(motion.position()), flip(motion.direction()), motion.speed());
@@ -138,9 +149,17 @@ pub fn extreme_robot(elements: Range<usize>) -> impl Strategy<Value = (Robot, Mo
     (moving_robot(elements), physics).prop_map(
         |((robot, motion), (gravity, stiffness, mass_per_length, platform_mass, alpha, beta, factor, weights))| {
             let mut spec = (*robot).clone();
-            spec.youngs_modulus = stiffness / spec.area;
+            let common = spec.material;
+            spec.material.youngs_modulus = stiffness / spec.material.area;
+            spec.material.mass_per_length = mass_per_length;
             spec.damping = Damping { alpha, beta };
-            (spec.gravity, spec.mass_per_length, spec.platform_mass) = (gravity, mass_per_length, platform_mass);
+            (spec.gravity, spec.platform_mass) = (gravity, platform_mass);
+            // What a cable has of its own stays as many times the common value as it was.
+            for own in spec.cables.iter_mut().map(|cable| &mut cable.own) {
+                own.youngs_modulus =
+                    own.youngs_modulus.map(|e| e / common.youngs_modulus * spec.material.youngs_modulus);
+                own.mass_per_length = own.mass_per_length.map(|mu| mu / common.mass_per_length * mass_per_length);
+            }
             // The usual tensions are about 100 N, the usual cables 10 m.
             let of_weight = weights.filter(|_| gravity > 0.0).map(|times| times * mass_per_length * gravity * 0.1);
             let factor = of_weight.unwrap_or(factor);

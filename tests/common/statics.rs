@@ -4,7 +4,7 @@ use tautline::Robot;
 use tautline::mechanics::{self, CableShape, Failure, Infeasible, LengthRates, Statics, StaticsError, length_rates};
 use tautline::robot::{Cable, TensionLaw, Vec2};
 
-use super::hung::{self, Hung};
+use super::hung::{self, Hung, mass_per_length};
 use super::{close, pair};
 
 /// The tension that a cable's law prescribes.
@@ -17,12 +17,12 @@ pub fn prescribed(cable: &Cable, at: Vec2) -> Option<f64> {
     }
 }
 
-/// One cable's shape satisfies the axial law and the balance of every node, and ends at the anchor. Its force is known to the
+/// The shape of cable `i` satisfies the axial law and the balance of every node, and ends at the anchor. Its force is known to the
 /// part `ill`: of that Newton's method leaves the square.
-pub fn check_shape(robot: &Robot, platform: Vec2, anchor: Vec2, shape: &CableShape, ill: f64) {
-    let (n, law) = (robot.elements, Hung::of(robot));
+pub fn check_shape(robot: &Robot, platform: Vec2, i: usize, shape: &CableShape, ill: f64) {
+    let (n, law, anchor) = (robot.elements, Hung::of(robot, i), robot.cables[i].anchor);
     let l = shape.length / n as f64;
-    let weight = Vec2::new(0.0, robot.weight_per_length() * l);
+    let weight = Vec2::new(0.0, mass_per_length(robot, i) * robot.gravity * l);
     let chord = (anchor - platform).norm();
     let size = shape.nodes.iter().map(Vec2::norm).fold(chord, f64::max);
     assert_eq!((shape.nodes.len(), shape.forces.len()), (n + 1, n));
@@ -55,7 +55,6 @@ pub fn check_shape(robot: &Robot, platform: Vec2, anchor: Vec2, shape: &CableSha
 
 /// All shapes satisfy their equations, prescribed tensions are met, and the platform is in balance.
 pub fn check_statics(robot: &Robot, found: &Statics) {
-    let law = Hung::of(robot);
     let [a, b] = pair(robot).map(|i| (robot.cables[i].anchor - found.position).normalize());
     // Directions have rounding, in both coordinates of both equilibrium cables one of every element, and their tensions have as
     // much more as these are nearer to one line. Newton's method comes as near as that; the square of it is left.
@@ -64,8 +63,8 @@ pub fn check_statics(robot: &Robot, found: &Statics) {
     let (mut sum, mut size) = (-own_weight, own_weight.norm());
     for (i, (cable, shape)) in robot.cables.iter().zip(&found.cables).enumerate() {
         let ill = if robot.equilibrium().contains(&i) { ill } else { 0.0 };
-        check_shape(robot, found.position, cable.anchor, shape, ill);
-        let force = law.platform_force(shape);
+        check_shape(robot, found.position, i, shape, ill);
+        let force = Hung::of(robot, i).platform_force(shape);
         sum += force;
         size += force.norm();
         if let Some(tension) = prescribed(cable, found.position) {
@@ -78,11 +77,10 @@ pub fn check_statics(robot: &Robot, found: &Statics) {
     close(sum.norm(), 0.0, (rounding + ill * ill) * size, "balance of the platform");
 }
 
-/// The force with which the equilibrium cables have to pull together.
-pub fn load<'a>(robot: &Robot, prescribed: impl Iterator<Item = &'a CableShape>) -> Vec2 {
-    let law = Hung::of(robot);
+/// The force with which the equilibrium cables have to pull together, given the shapes of the prescribed ones.
+pub fn load<'a>(robot: &Robot, shape: impl Fn(usize) -> &'a CableShape) -> Vec2 {
     let own_weight = Vec2::new(0.0, robot.platform_mass * robot.gravity);
-    prescribed.fold(own_weight, |load, shape| load - law.platform_force(shape))
+    robot.prescribed().fold(own_weight, |load, i| load - Hung::of(robot, i).platform_force(shape(i)))
 }
 
 /// The tensions of the equilibrium cables if they were straight, by Cramer's rule.
@@ -94,11 +92,11 @@ pub fn straight_tensions(robot: &Robot, platform: Vec2, load: Vec2) -> [f64; 2] 
 
 /// Checks a pose's verdict by the rule of docs/theory.md section 5; listing all shapes is slow, so only if `thorough`.
 pub fn check_verdict(robot: &Robot, platform: Vec2, found: &Result<Statics, Failure>, thorough: bool) {
-    let law = Hung::of(robot);
+    let law = |i: usize| Hung::of(robot, i);
     let chord = |i: usize| robot.cables[i].anchor - platform;
     let failure = match found {
         Ok(statics) => {
-            let load = load(robot, robot.prescribed().map(|i| &statics.cables[i]));
+            let load = load(robot, |i| &statics.cables[i]);
             let tensions = straight_tensions(robot, platform, load);
             assert!(tensions[0] > 0.0 && tensions[1] > 0.0, "{platform:?} has a shape, with {tensions:?}");
             return;
@@ -108,14 +106,13 @@ pub fn check_verdict(robot: &Robot, platform: Vec2, found: &Result<Statics, Fail
     let StaticsError::Infeasible(reason) = failure.reason else {
         panic!("{failure} at {platform:?} of {robot:?}");
     };
-    let load =
-        || load(robot, robot.prescribed().map(|i| failure.cables[i].as_ref().expect("a prescribed cable's shape")));
+    let load = || load(robot, |i| failure.cables[i].as_ref().expect("a prescribed cable's shape"));
     match reason {
         Infeasible::AtAnchor { cable } => close(chord(cable).norm(), 0.0, 1e-9, "distance from the anchor"),
         Infeasible::NoTension { tension, .. } => assert!(tension <= 0.0, "{tension} N at {platform:?}"),
         Infeasible::TooSlack { cable, tension } => {
             assert!(robot.cables[cable].tension != TensionLaw::Equilibrium);
-            let curve = if thorough { law.curve(chord(cable)) } else { Vec::new() };
+            let curve = if thorough { law(cable).curve(chord(cable)) } else { Vec::new() };
             let least = curve.iter().map(|(_, force)| force.norm()).fold(f64::INFINITY, f64::min);
             assert!(least > tension, "{tension} N at {platform:?}: a cable can have {least} N");
         }
@@ -140,7 +137,7 @@ pub fn check_verdict(robot: &Robot, platform: Vec2, found: &Result<Statics, Fail
             let tensions = straight_tensions(robot, platform, load());
             assert!(tensions[0] > 0.0 && tensions[1] > 0.0, "{tensions:?} at {platform:?}");
             if thorough {
-                let curves = pair(robot).map(|i| law.curve(chord(i)));
+                let curves = pair(robot).map(|i| law(i).curve(chord(i)));
                 let shapes = hung::crossings(&curves, load());
                 assert!(shapes.is_empty(), "{reason} at {platform:?}, but there is {shapes:?}");
             }

@@ -95,8 +95,8 @@ def _choice(value, path, allowed):
 class Robot:
     """A scenario with its defaults filled in.
 
-    EA [N], mu [kg/m], mass [kg], g [m/s^2], strain "green" or "engineering",
-    anchors (cables, 2) [m], laws: per cable None (equilibrium) or an array (2, 3) whose rows give
+    EA (cables,) [N], mu (cables,) [kg/m], mass [kg], g [m/s^2], strain per cable "green" or
+    "engineering", anchors (cables, 2) [m], laws: per cable None (equilibrium) or an array (2, 3) whose rows give
     the horizontal and vertical part as c0 + cx x + cy y [N], pair: indices of the two equilibrium
     cables, n elements per cable, alpha [1/s], beta [s], secant (bool), p (2,) [m],
     d unit vector (2,), speed [m/s].
@@ -107,13 +107,10 @@ class Robot:
         _fields(s, "scenario", ("cable", "platform", "cables", "elements_per_cable", "damping", "motion"),
                 ("schema", "name", "gravity", "linearisation"))
         if "schema" in s:
-            _choice(s["schema"], "schema", ("tautline/scenario/1",))
+            _choice(s["schema"], "schema", ("tautline/scenario/1", "tautline/scenario/2"))
         self.g = _number(s.get("gravity", 9.81), "gravity", 0.0)
         _fields(s["cable"], "cable", ("youngs_modulus", "area", "mass_per_length"), ("strain",))
-        self.EA = (_number(s["cable"]["youngs_modulus"], "cable.youngs_modulus", 0.0, True)
-                   * _number(s["cable"]["area"], "cable.area", 0.0, True))
-        self.mu = _number(s["cable"]["mass_per_length"], "cable.mass_per_length", 0.0, True)
-        self.strain = _choice(s["cable"].get("strain", "green"), "cable.strain", ("green", "engineering"))
+        self._material(s["cable"], "cable")
         _fields(s["platform"], "platform", ("mass",))
         self.mass = _number(s["platform"]["mass"], "platform.mass", 0.0, True)
         cables = s["cables"]
@@ -121,8 +118,13 @@ class Robot:
             raise BadScenario("cables: expected a list of 3 to 8 cables")
         self.anchors = np.zeros((len(cables), 2))
         self.laws = []
+        self.EA, self.mu, self.strain = np.zeros(len(cables)), np.zeros(len(cables)), []
         for i, cable in enumerate(cables):
-            _fields(cable, f"cables[{i}]", ("anchor", "tension"))
+            _fields(cable, f"cables[{i}]", ("anchor", "tension"), ("cable",))
+            own = cable.get("cable", {})
+            _fields(own, f"cables[{i}].cable", (), ("youngs_modulus", "area", "mass_per_length", "strain"))
+            self.EA[i], self.mu[i], strain = self._material({**s["cable"], **own}, f"cables[{i}].cable")
+            self.strain.append(strain)
             self.anchors[i] = _vector(cable["anchor"], f"cables[{i}].anchor", 2)
             self.laws.append(self._law(cable["tension"], f"cables[{i}].tension"))
         for i in range(len(cables)):
@@ -158,9 +160,16 @@ class Robot:
             return np.array([_vector(tension[key], f"{path}.{key}", 3) for key in ("horizontal", "vertical")])
         raise BadScenario(f"{path}: neither equilibrium, constant nor horizontal and vertical")
 
-    def weight_per_length(self):
-        """Weight of a unit of unstretched cable, N/m."""
-        return self.mu * self.g
+    @staticmethod
+    def _material(material, path):
+        """EA [N], mu [kg/m] and the strain of a cable that is made of `material`."""
+        modulus, area, mu = (_number(material[key], f"{path}.{key}", 0.0, True)
+                             for key in ("youngs_modulus", "area", "mass_per_length"))
+        return modulus * area, mu, _choice(material.get("strain", "green"), f"{path}.strain", ("green", "engineering"))
+
+    def cable(self, i):
+        """What the shape functions need to know of cable i."""
+        return _SingleCable(self.n, self.EA[i], self.mu[i], self.g, self.strain[i], self.secant)
 
 
 # ---------------------------------------------------------------------------------------------
@@ -211,23 +220,23 @@ def element_forces(P, L, w, n):
     return t
 
 
-def cable_shape(P, L, w, robot):
+def cable_shape(P, L, w, cable):
     """Element forces (n, 2), their magnitudes, stretches, and node offsets from the platform (n+1, 2)."""
-    t = element_forces(P, L, w, robot.n)
+    t = element_forces(P, L, w, cable.n)
     force = np.hypot(t[:, 0], t[:, 1])
-    stretch = stretch_of(force, robot.EA, robot.strain)
-    steps = (L / robot.n) * (stretch / force)[:, None] * t
+    stretch = stretch_of(force, cable.EA, cable.strain)
+    steps = (L / cable.n) * (stretch / force)[:, None] * t
     return t, force, stretch, np.vstack([np.zeros(2), np.cumsum(steps, axis=0)])
 
 
-def cable_end(P, L, w, robot):
+def cable_end(P, L, w, cable):
     """End offset r_n - r_0 and its derivatives by P (2, 2), by L (2,) and by w (2,)."""
-    n = robot.n
-    t, force, stretch, nodes = cable_shape(P, L, w, robot)
+    n = cable.n
+    t, force, stretch, nodes = cable_shape(P, L, w, cable)
     l = L / n
     e = t / force[:, None]
     across = l * stretch / force
-    along = l / axial_slope(stretch, robot.EA, robot.strain)
+    along = l / axial_slope(stretch, cable.EA, cable.strain)
     # d(step)/dt = across (I - e e^T) + along e e^T, per element
     dt = across[:, None, None] * np.eye(2) + (along - across)[:, None, None] * e[:, :, None] * e[:, None, :]
     lever = np.arange(n) + 0.5
@@ -351,12 +360,13 @@ def solve_prescribed(robot, i):
     if T <= 0.0:
         raise Infeasible(f"the tension prescribed for cable {i + 1} vanishes here", i + 1)
     e, d = chord(robot, i)
-    w = robot.weight_per_length()
+    cable = robot.cable(i)
+    w = cable.weight_per_length()
 
     def make_residual(weight):
         def residual(u):
             P, L = u[:2], u[2]
-            end, d_P, d_L, d_w = cable_end(P, L, weight, robot)
+            end, d_P, d_L, d_w = cable_end(P, L, weight, cable)
             R = np.append((end - e * d) / d, (P @ P / T**2 - 1.0))
             J = np.zeros((3, 3))
             J[:2, :2] = d_P / d
@@ -365,7 +375,7 @@ def solve_prescribed(robot, i):
             return R, J, np.append(d_w / d, 0.0)
         return residual
 
-    taut_stretch = float(stretch_of(T, robot.EA, robot.strain))
+    taut_stretch = float(stretch_of(T, cable.EA, cable.strain))
     straight = np.array([T * e[0], T * e[1], d / taut_stretch])
     # Parabolic cable: the chord carries `axial`, each end half the weight W.
     W = w * straight[2]
@@ -391,7 +401,8 @@ def solve_pair(robot, pull):
     """
     i, j = robot.pair
     load = pull - np.array([0.0, robot.mass * robot.g])
-    w = robot.weight_per_length()
+    cables = robot.cable(i), robot.cable(j)
+    w = np.array([cable.weight_per_length() for cable in cables])
     (e1, d1), (e2, d2) = chord(robot, i), chord(robot, j)
     chords = np.column_stack([e1, e2])
     if abs(np.linalg.det(chords)) < 1e-12:
@@ -402,34 +413,35 @@ def solve_pair(robot, pull):
         k = robot.pair[int(np.argmin(axial))] + 1
         raise Infeasible(f"cable {k} would have to push the platform to hold this pose", k)
 
+    # Here the weight is a part of that of both cables, from 0 to 1.
     def make_residual(weight):
         def residual(u):
             P1, L1, L2 = u[:2], u[2], u[3]
-            end1, d1_P, d1_L, d1_w = cable_end(P1, L1, weight, robot)
-            end2, d2_P, d2_L, d2_w = cable_end(-load - P1, L2, weight, robot)
+            end1, d1_P, d1_L, d1_w = cable_end(P1, L1, weight * w[0], cables[0])
+            end2, d2_P, d2_L, d2_w = cable_end(-load - P1, L2, weight * w[1], cables[1])
             R = np.concatenate([(end1 - e1 * d1) / d1, (end2 - e2 * d2) / d2])
             J = np.zeros((4, 4))
             J[:2, :2] = d1_P / d1
             J[2:, :2] = -d2_P / d2
             J[:2, 2] = d1_L / d1
             J[2:, 3] = d2_L / d2
-            return R, J, np.concatenate([d1_w / d1, d2_w / d2])
+            return R, J, np.concatenate([d1_w * w[0] / d1, d2_w * w[1] / d2])
         return residual
 
-    stretch = stretch_of(axial, robot.EA, robot.strain)
+    stretch = [float(stretch_of(force, cable.EA, cable.strain)) for force, cable in zip(axial, cables, strict=True)]
     straight = np.array([*(axial[0] * e1), d1 / stretch[0], d2 / stretch[1]])
-    W1, W2 = w * straight[2], w * straight[3]
+    W1, W2 = w * straight[2:]
     heavy = np.linalg.solve(chords, -load + np.array([0.0, 0.5 * (W1 + W2)]))
     guess = None
     if heavy.min() > 0.0:
         sag = (np.array([W1 * e1[0], W2 * e2[0]]) / heavy)**2 / 24.0
         guess = np.array([heavy[0] * e1[0], heavy[0] * e1[1] - 0.5 * W1,
                           straight[2] * (1.0 + sag[0]), straight[3] * (1.0 + sag[1])])
-    found, last = taut_solution(make_residual, straight, guess, w, [2, 3])
+    found, last = taut_solution(make_residual, straight, guess, 1.0, [2, 3])
     if found is not None:
         u = found[0]
-        for k, P, L in ((i, u[:2], u[2]), (j, -load - u[:2], u[3])):
-            if reversal(P, L, w, robot.n):
+        for k, P, L, weight in ((i, u[:2], u[2], w[0]), (j, -load - u[:2], u[3], w[1])):
+            if reversal(P, L, weight, robot.n):
                 raise Infeasible(f"cable {k + 1} hangs slack under its own weight", k + 1)
         return found
     slack = [math.hypot(*last[:2]) / last[2], math.hypot(*(load + last[:2])) / last[3]]
@@ -491,14 +503,14 @@ def s_stretch(force, EA, strain):
     return np.array([c0, c1, (force[2] - 0.5 * axial_curvature(c0, EA, strain) * c1**2) / slope])
 
 
-def s_cable_end(Px, Py, L, robot):
+def s_cable_end(Px, Py, L, cable):
     """End offset (x, y) of a cable as series, from the series of its end force and length."""
-    n = robot.n
-    lever = (np.arange(n) + 0.5) * robot.weight_per_length() / n
+    n = cable.n
+    lever = (np.arange(n) + 0.5) * cable.weight_per_length() / n
     tx = Px[:, None] * np.ones(n)
     ty = Py[:, None] + L[:, None] * lever
     force = s_sqrt(s_mul(tx, tx) + s_mul(ty, ty))
-    ratio = s_div(s_stretch(force, robot.EA, robot.strain), force)
+    ratio = s_div(s_stretch(force, cable.EA, cable.strain), force)
     l = L[:, None] * np.full(n, 1.0 / n)
     return [s_mul(l, s_mul(ratio, t)).sum(axis=1) for t in (tx, ty)]
 
@@ -525,10 +537,10 @@ def length_rates(robot, P, L, jacobians):
             continue
         h, v = (law[0] * one + law[1] * x + law[2] * y for law in robot.laws[i])
         T2 = s_mul(h, h) + s_mul(v, v)
-        scale, d = T2[0], chord(robot, i)[1]
+        scale, d, cable = T2[0], chord(robot, i)[1], robot.cable(i)
 
         def residual(U):
-            ex, ey = s_cable_end(U[:, 0], U[:, 1], U[:, 2], robot)
+            ex, ey = s_cable_end(U[:, 0], U[:, 1], U[:, 2], cable)
             return np.column_stack([
                 (x + ex - robot.anchors[i, 0] * one) / d,
                 (y + ey - robot.anchors[i, 1] * one) / d,
@@ -542,8 +554,8 @@ def length_rates(robot, P, L, jacobians):
     load_x, load_y = pull_x, pull_y - robot.mass * robot.g * one
 
     def residual(U):
-        ax, ay = s_cable_end(U[:, 0], U[:, 1], U[:, 2], robot)
-        bx, by = s_cable_end(-load_x - U[:, 0], -load_y - U[:, 1], U[:, 3], robot)
+        ax, ay = s_cable_end(U[:, 0], U[:, 1], U[:, 2], robot.cable(i))
+        bx, by = s_cable_end(-load_x - U[:, 0], -load_y - U[:, 1], U[:, 3], robot.cable(j))
         return np.column_stack([
             (x + ax - robot.anchors[i, 0] * one) / di, (y + ay - robot.anchors[i, 1] * one) / di,
             (x + bx - robot.anchors[j, 0] * one) / dj, (y + by - robot.anchors[j, 1] * one) / dj])
@@ -571,16 +583,16 @@ def element_matrices(L, rate, curvature, mu, n):
     return M, np.moveaxis(C, -1, 0), np.moveaxis(K, -1, 0)
 
 
-def elastic_blocks(P, L, robot):
+def elastic_blocks(P, L, cable):
     """2 x 2 blocks A / l of the elastic stiffness of one cable's elements, (n, 2, 2)."""
-    t, force, stretch, _ = cable_shape(P, L, robot.weight_per_length(), robot)
+    t, force, stretch, _ = cable_shape(P, L, cable.weight_per_length(), cable)
     secant = force / stretch
     blocks = secant[:, None, None] * np.eye(2)
-    if not robot.secant:
+    if not cable.secant:
         e = t / force[:, None]
-        extra = axial_slope(stretch, robot.EA, robot.strain) - secant
+        extra = axial_slope(stretch, cable.EA, cable.strain) - secant
         blocks = blocks + extra[:, None, None] * e[:, :, None] * e[:, None, :]
-    return blocks * (robot.n / L)
+    return blocks * (cable.n / L)
 
 
 class Dynamics:
@@ -603,14 +615,14 @@ class Dynamics:
             index = np.concatenate([[0], 1 + i * (n - 1) + np.arange(n - 1), [wall]])
             ends = np.column_stack([index[:-1], index[1:]])
             where = (ends[:, :, None], ends[:, None, :])
-            Me, Ce, Ke = element_matrices(L[i], rates[i], curvatures[i], robot.mu, n)
+            Me, Ce, Ke = element_matrices(L[i], rates[i], curvatures[i], robot.mu[i], n)
             own = np.zeros_like(M)
             np.add.at(own, where, Me)
             self.cable_mass.append(own[:nodes, :nodes])
             M += own
             np.add.at(C, where, Ce)
             np.add.at(K2, where, Ke)
-            blocks = elastic_blocks(P[i], L[i], robot)
+            blocks = elastic_blocks(P[i], L[i], robot.cable(i))
             signs = np.array([[1.0, -1.0], [-1.0, 1.0]])
             np.add.at(K_el, where, signs[None, :, :, None, None] * blocks[:, None, None, :, :])
         M[0, 0] += robot.mass
@@ -714,9 +726,10 @@ def analyse(scenario, max_speed=DEFAULT_MAX_SPEED, step=DEFAULT_STEP):
         out.update(feasible=False, reason=error.reason[0].upper() + error.reason[1:] + ".", cable=error.cable)
         return out
     rates, curvatures = length_rates(robot, P, L, jacobians)
-    w = robot.weight_per_length()
     for i in range(len(L)):
-        nodes = robot.p + cable_shape(P[i], L[i], w, robot)[3]
+        cable = robot.cable(i)
+        w = cable.weight_per_length()
+        nodes = robot.p + cable_shape(P[i], L[i], w, cable)[3]
         nodes[-1] = robot.anchors[i]
         out["cables"].append({
             "unstretched_length": float(L[i]),

@@ -3,17 +3,17 @@
 /** A point [x, y] in m, or a direction. */
 export type Vector = readonly [x: number, y: number];
 
-// ---- The scenario: `tautline/scenario/1` -------------------------------------------------------------------------
+// ---- The scenario: `tautline/scenario/1` and `tautline/scenario/2` -----------------------------------------------
 
 /** A robot, where its platform is and how it moves: the scenario file as an object. There are no other fields. */
 export interface Scenario {
-    /** The format's name and version. */
-    readonly schema?: "tautline/scenario/1";
+    /** The format's name and version. The second one is needed where a cable has `cable`; leave it out and either is read. */
+    readonly schema?: "tautline/scenario/1" | "tautline/scenario/2";
     /** A title for people. */
     readonly name?: string;
     /** Gravitational acceleration, downward, in m/s²: 0 or more. 9.81 unless given. */
     readonly gravity?: number;
-    /** What the cables are made of. */
+    /** What the cables are made of, unless one has something of its own. */
     readonly cable: CableMaterial;
     readonly platform: {
         /** In kg, greater than 0. */
@@ -58,6 +58,8 @@ export interface Cable {
     /** The winch point in m. */
     readonly anchor: Vector;
     readonly tension: Tension;
+    /** What this cable alone has in the place of the scenario's `cable`: any of its fields. */
+    readonly cable?: Partial<CableMaterial>;
 }
 
 /** What sets a cable's tension: the platform's equilibrium, a constant in N, or a law of the position (x, y). */

@@ -11,7 +11,7 @@ use crate::app::number::{Control, Unit};
 use crate::app::state::Session;
 use crate::app::{canvas, fields, number, theme};
 use crate::robot::{BoundingBox, CABLES, TensionLaw};
-use crate::scenario::v1::Cable;
+use crate::scenario::json::Cable;
 use crate::scenario::{Parameter, Scenario};
 
 /// The height of a row of the table.
@@ -77,7 +77,10 @@ fn cable_of(parameter: Parameter) -> Option<usize> {
         Parameter::Anchor(cable, _)
         | Parameter::Tension(cable)
         | Parameter::Horizontal(cable, _)
-        | Parameter::Vertical(cable, _) => Some(cable),
+        | Parameter::Vertical(cable, _)
+        | Parameter::OwnYoungsModulus(cable)
+        | Parameter::OwnArea(cable)
+        | Parameter::OwnMassPerLength(cable) => Some(cable),
         _ => None,
     }
 }
@@ -362,7 +365,7 @@ fn another(scenario: &Scenario) -> Cable {
     let mean = tensions.iter().sum::<f64>() / tensions.len().max(1) as f64;
     // To three digits: nobody means it more exactly.
     let tension = format!("{mean:.2e}").parse().ok().filter(|tension| *tension > 0.0).unwrap_or(1.0);
-    Cable { anchor, tension: TensionLaw::Constant(tension) }
+    Cable::new(anchor, TensionLaw::Constant(tension))
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use crate::app::state::{MapQuantity, Plot, UiState};
 use crate::compute::protocol::Topic;
 use crate::robot::{Damping, Linearisation, Robot};
 use crate::scenario::Scenario;
+use crate::scenario::json::Motion;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
-use crate::scenario::v1::Motion;
 use crate::study::{Directions, Grid, Line, Mapped, Study, workspace};
 
 /// About how many intervals a map has; spread so that they are as wide as they are high.

@@ -1,6 +1,6 @@
 use super::refine::REFINED_TO;
 use super::*;
-use crate::robot::{Cable, Damping, Linearisation, RobotSpec, TensionLaw, Vec2, paper_spec};
+use crate::robot::{Cable, CableMaterial, Damping, Linearisation, RobotSpec, TensionLaw, paper_spec};
 use crate::stability::steps::finish_watched;
 use crate::stability::{Eigenproblem, problems};
 
@@ -56,11 +56,9 @@ fn a_search_tells_how_far_it_has_come_and_why_it_scans() {
 /// searched. Strips grow with the speed, so that they are few; a speed that is no limit is none.
 #[test]
 fn a_search_far_beyond_all_that_moves_ends_soon() {
-    let cable = |x, y, tension| Cable { anchor: Vec2::new(x, y), tension };
+    let cable = |x, y, tension| Cable::new([x, y], tension);
     let spec = RobotSpec {
-        youngs_modulus: 1e13,
-        area: 1e-4,
-        mass_per_length: 1e-4,
+        material: CableMaterial { youngs_modulus: 1e13, area: 1e-4, mass_per_length: 1e-4, ..paper_spec().material },
         platform_mass: 1e6,
         cables: vec![
             cable(-5.0, 5.0, TensionLaw::Equilibrium),

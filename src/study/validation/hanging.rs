@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::comparison::{Comparison, NoComparison, limit};
 use crate::mechanics::{self, CableShape, Hub, LengthRates, Vibration};
-use crate::robot::{Cable, Damping, Linearisation, Robot, RobotSpec, Strain, TensionLaw, Vec2};
+use crate::robot::{Cable, CableMaterial, Damping, Linearisation, Robot, RobotSpec, Strain, TensionLaw, Vec2};
 use crate::stability::{Eigenproblem, bisect};
 
 /// A cable of the table in docs/theory.md section 10: span 10 m, rise 5 m, EA = 6250 N, 3.924 N/m, engineering strain.
@@ -51,14 +51,16 @@ impl Hanging {
     fn with_tension(&self, elements: usize, tension: f64) -> Result<(CableShape, Vibration), NoComparison> {
         let back = -self.span.normalize();
         let aside = Vec2::new(-back.y, back.x);
-        let holding = |anchor| Cable { anchor, tension: TensionLaw::Equilibrium };
-        let own = Cable { anchor: self.span, tension: TensionLaw::Constant(tension) };
+        let holding = |anchor: Vec2| Cable::new(anchor, TensionLaw::Equilibrium);
+        let own = Cable::new(self.span, TensionLaw::Constant(tension));
         let robot = Robot::new(RobotSpec {
             gravity: self.gravity,
-            youngs_modulus: self.axial_stiffness,
-            area: 1.0,
-            mass_per_length: self.mass_per_length,
-            strain: Strain::Engineering,
+            material: CableMaterial {
+                youngs_modulus: self.axial_stiffness,
+                area: 1.0,
+                mass_per_length: self.mass_per_length,
+                strain: Strain::Engineering,
+            },
             platform_mass: 1e-3,
             cables: vec![holding(back + aside), holding(back - aside), own],
             elements,

@@ -1,5 +1,8 @@
-//! The scenario file, `tautline/scenario/1`: a robot, a pose and a motion as JSON. The durable format: what can be
-//! read today stays readable.
+//! The scenario file: a robot, a pose and a motion as JSON. The durable format: what can be read today stays readable.
+//!
+//! There are two versions. `tautline/scenario/2` has all that `tautline/scenario/1` has, and in a cable the field `cable`
+//! with what that cable is made of. The version follows from what is used: a scenario without a field of the second
+//! version is written in the first, so that older programs read it too.
 //!
 //! ```
 //! use tautline::scenario::{Scenario, presets};
@@ -11,32 +14,32 @@
 //! # Ok::<(), tautline::robot::Faults>(())
 //! ```
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
 use crate::robot::{
-    self, CABLES, Damping, ELEMENTS, Faults, Linearisation, Robot, RobotSpec, Strain, TensionLaw, Vec2,
+    self, CABLES, CableMaterial, Damping, ELEMENTS, Faults, Linearisation, OwnMaterial, Robot, RobotSpec, Strain,
+    TensionLaw, Vec2,
 };
 use crate::scenario::layout;
-use crate::scenario::reader::{Document, Value};
+use crate::scenario::reader::{Document, Object, Value};
 
-/// The name and version of the format.
+/// The name and the first version of the format.
 pub const SCHEMA: &str = "tautline/scenario/1";
+/// The second version, in which cables may have a material of their own.
+pub const SCHEMA_2: &str = "tautline/scenario/2";
 /// Gravitational acceleration where a file gives none, in m/s².
 pub const DEFAULT_GRAVITY: f64 = 9.81;
 
 /// A robot, where its platform is and how it moves, as a file holds it. SI units throughout.
 ///
 /// Fields can be set to anything; [`Scenario::to_robot`] tells whether the whole is physical.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Scenario {
-    /// [`SCHEMA`].
-    pub schema: Schema,
     /// A title for people.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Gravitational acceleration g, downward, in m/s².
     pub gravity: f64,
-    /// What the cables are made of.
+    /// What the cables are made of, unless one has something of its own.
     pub cable: Material,
     /// The platform.
     pub platform: Platform,
@@ -45,21 +48,11 @@ pub struct Scenario {
     /// Elements per cable, n.
     pub elements_per_cable: usize,
     /// Damping αM + βK.
-    #[serde(with = "DampingForm")]
     pub damping: Damping,
     /// Secant or tangent stiffness.
-    #[serde(with = "LinearisationForm")]
     pub linearisation: Linearisation,
     /// Where the platform is and how it moves.
     pub motion: Motion,
-}
-
-/// The version of the format.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-pub enum Schema {
-    /// [`SCHEMA`].
-    #[serde(rename = "tautline/scenario/1")]
-    V1,
 }
 
 /// What the cables are made of.
@@ -74,6 +67,20 @@ pub struct Material {
     /// The strain measure.
     #[serde(with = "StrainForm")]
     pub strain: Strain,
+}
+
+impl From<CableMaterial> for Material {
+    fn from(material: CableMaterial) -> Self {
+        let CableMaterial { youngs_modulus, area, mass_per_length, strain } = material;
+        Self { youngs_modulus, area, mass_per_length, strain }
+    }
+}
+
+impl From<Material> for CableMaterial {
+    fn from(material: Material) -> Self {
+        let Material { youngs_modulus, area, mass_per_length, strain } = material;
+        Self { youngs_modulus, area, mass_per_length, strain }
+    }
 }
 
 /// The platform.
@@ -91,6 +98,17 @@ pub struct Cable {
     /// What sets its tension.
     #[serde(with = "TensionForm")]
     pub tension: TensionLaw,
+    /// What it has of its own in the place of the scenario's [`Material`]. In a file an object without fields means the same
+    /// as none.
+    #[serde(with = "OwnMaterialForm", skip_serializing_if = "OwnMaterial::is_empty")]
+    pub cable: OwnMaterial,
+}
+
+impl Cable {
+    /// A cable to the winch at `anchor` (m), made of what all cables share.
+    pub fn new(anchor: [f64; 2], tension: TensionLaw) -> Self {
+        Self { anchor, tension, cable: OwnMaterial::default() }
+    }
 }
 
 /// Where the platform is and how it moves.
@@ -107,17 +125,12 @@ pub struct Motion {
 impl Scenario {
     /// The scenario of a robot and its motion, without a name.
     pub fn new(robot: &RobotSpec, motion: impl Into<Motion>) -> Self {
-        let cable = |cable: &robot::Cable| Cable { anchor: cable.anchor.into(), tension: cable.tension };
+        let cable =
+            |cable: &robot::Cable| Cable { anchor: cable.anchor.into(), tension: cable.tension, cable: cable.own };
         Self {
-            schema: Schema::V1,
             name: None,
             gravity: robot.gravity,
-            cable: Material {
-                youngs_modulus: robot.youngs_modulus,
-                area: robot.area,
-                mass_per_length: robot.mass_per_length,
-                strain: robot.strain,
-            },
+            cable: robot.material.into(),
             platform: Platform { mass: robot.platform_mass },
             cables: robot.cables.iter().map(cable).collect(),
             elements_per_cable: robot.elements,
@@ -132,13 +145,11 @@ impl Scenario {
     /// # Errors
     /// All that is not physical, see [`Robot::new`] and [`robot::Motion::new`].
     pub fn to_robot(&self) -> Result<(Robot, robot::Motion), Faults> {
-        let cable = |cable: &Cable| robot::Cable { anchor: cable.anchor.into(), tension: cable.tension };
+        let cable =
+            |cable: &Cable| robot::Cable { anchor: cable.anchor.into(), tension: cable.tension, own: cable.cable };
         let robot = Robot::new(RobotSpec {
             gravity: self.gravity,
-            youngs_modulus: self.cable.youngs_modulus,
-            area: self.cable.area,
-            mass_per_length: self.cable.mass_per_length,
-            strain: self.cable.strain,
+            material: self.cable.into(),
             platform_mass: self.platform.mass,
             cables: self.cables.iter().map(cable).collect(),
             elements: self.elements_per_cable,
@@ -153,10 +164,23 @@ impl Scenario {
         }
     }
 
-    /// Reads a scenario file.
+    /// The version of the format in which it is written: [`SCHEMA_2`] where a cable has something of its own, else
+    /// [`SCHEMA`].
+    pub fn schema(&self) -> &'static str {
+        if self.cables.iter().all(|cable| cable.cable.is_empty()) { SCHEMA } else { SCHEMA_2 }
+    }
+
+    /// What a cable (0-based) is made of: its own values, and for the rest those that all cables share.
+    pub fn material_of(&self, cable: usize) -> Material {
+        let own = self.cables.get(cable).map(|cable| cable.cable).unwrap_or_default();
+        own.over(self.cable.into()).into()
+    }
+
+    /// Reads a scenario file of either version.
     ///
     /// `schema` and `name` may be missing; so may `gravity` ([`DEFAULT_GRAVITY`]), `strain` (Green) and `linearisation`
-    /// (secant). All other fields are required, and there are no others.
+    /// (secant), and of a cable `cable` with any of its fields. All other fields are required, and there are no others. A file
+    /// without `schema` may have the fields of either version; one that says it is of the first must have none of the second.
     ///
     /// # Errors
     /// Where the text is not a scenario's JSON, all that is wrong with it; else all that is not physical.
@@ -186,6 +210,16 @@ impl From<&robot::Motion> for Motion {
 const TENSION: &str =
     r#""equilibrium", {"constant": T} or {"horizontal": [h0, hx, hy], "vertical": [v0, vx, vy]} with numbers"#;
 
+/// The fields of a material.
+const MATERIAL: [&str; 4] = ["youngs_modulus", "area", "mass_per_length", "strain"];
+
+/// The version that a file says it is of.
+#[derive(Clone, Copy, PartialEq)]
+enum Version {
+    First,
+    Second,
+}
+
 fn read(file: &Value) -> Scenario {
     let file = file.object(&[
         "schema",
@@ -199,31 +233,28 @@ fn read(file: &Value) -> Scenario {
         "linearisation",
         "motion",
     ]);
-    if let Some(schema) = file.optional("schema") {
-        schema.choice(&[(SCHEMA, ())], &format!("{SCHEMA:?}"));
-    }
-    let cable = file.field("cable").object(&["youngs_modulus", "area", "mass_per_length", "strain"]);
+    let versions = [(SCHEMA, Version::First), (SCHEMA_2, Version::Second)];
+    let version = (file.optional("schema"))
+        .and_then(|schema| schema.choice(&versions, &format!("{SCHEMA:?} or {SCHEMA_2:?}")))
+        .unwrap_or(Version::Second);
+    let cable = file.field("cable").object(&MATERIAL);
     let platform = file.field("platform").object(&["mass"]);
     let damping = file.field("damping").object(&["alpha", "beta"]);
     let motion = file.field("motion").object(&["position", "direction", "speed"]);
-    let strains = [("green", Strain::Green), ("engineering", Strain::Engineering)];
     let linearisations = [("secant", Linearisation::Secant), ("tangent", Linearisation::Tangent)];
     Scenario {
-        schema: Schema::V1,
         name: file.optional("name").map(|name| name.text()),
         gravity: file.optional("gravity").map_or(DEFAULT_GRAVITY, |gravity| gravity.number()),
         cable: Material {
             youngs_modulus: cable.field("youngs_modulus").number(),
             area: cable.field("area").number(),
             mass_per_length: cable.field("mass_per_length").number(),
-            strain: (cable.optional("strain"))
-                .and_then(|strain| strain.choice(&strains, r#""green" or "engineering""#))
-                .unwrap_or(Strain::Green),
+            strain: read_strain(&cable).unwrap_or(Strain::Green),
         },
         platform: Platform { mass: platform.field("mass").number() },
         cables: {
             let allowed = format!("a list of {} to {} cables", CABLES.start(), CABLES.end());
-            file.field("cables").list(&allowed).iter().map(read_cable).collect()
+            file.field("cables").list(&allowed).iter().map(|cable| read_cable(cable, version)).collect()
         },
         elements_per_cable: {
             let allowed = robot::Allowed::Whole(ELEMENTS).to_string();
@@ -241,8 +272,34 @@ fn read(file: &Value) -> Scenario {
     }
 }
 
-fn read_cable(cable: &Value) -> Cable {
-    let cable = cable.object(&["anchor", "tension"]);
+/// The strain measure of a material, where it is given.
+fn read_strain(material: &Object) -> Option<Strain> {
+    let strains = [("green", Strain::Green), ("engineering", Strain::Engineering)];
+    material.optional("strain")?.choice(&strains, r#""green" or "engineering""#)
+}
+
+/// What a cable has of its own; nothing where the field is missing.
+fn read_own(cable: &Object, version: Version) -> OwnMaterial {
+    let Some(own) = cable.optional("cable") else { return OwnMaterial::default() };
+    if version == Version::First {
+        own.refuse(
+            &format!("a field of {SCHEMA_2}"),
+            &format!("the fields anchor, tension in {SCHEMA:?}; say {SCHEMA_2:?}, or leave it out"),
+        );
+        return OwnMaterial::default();
+    }
+    let own = own.object(&MATERIAL);
+    let number = |name| own.optional(name).map(|number| number.number());
+    OwnMaterial {
+        youngs_modulus: number("youngs_modulus"),
+        area: number("area"),
+        mass_per_length: number("mass_per_length"),
+        strain: read_strain(&own),
+    }
+}
+
+fn read_cable(cable: &Value, version: Version) -> Cable {
+    let cable = cable.object(&["anchor", "tension", "cable"]);
     let tension = cable.field("tension");
     let names = tension.names();
     let has = |name: &str| names.iter().any(|n| n == name);
@@ -262,10 +319,58 @@ fn read_cable(cable: &Value) -> Cable {
                 tension.choice(&words, TENSION).unwrap_or(TensionLaw::Equilibrium)
             }
         },
+        cable: read_own(&cable, version),
     }
 }
 
+impl Serialize for Scenario {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        ScenarioForm::serialize(self, serializer)
+    }
+}
+
+/// The fields of a file in their order. The version is none of the scenario's own: it follows from the others.
+#[derive(Serialize)]
+#[serde(remote = "Scenario")]
+struct ScenarioForm {
+    #[serde(getter = "Scenario::schema")]
+    schema: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    gravity: f64,
+    cable: Material,
+    platform: Platform,
+    cables: Vec<Cable>,
+    elements_per_cable: usize,
+    #[serde(with = "DampingForm")]
+    damping: Damping,
+    #[serde(with = "LinearisationForm")]
+    linearisation: Linearisation,
+    motion: Motion,
+}
+
 // The robot's own types know no JSON; these say how they are written.
+
+#[derive(Serialize)]
+#[serde(remote = "OwnMaterial")]
+struct OwnMaterialForm {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    youngs_modulus: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    area: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mass_per_length: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none", serialize_with = "own_strain")]
+    strain: Option<Strain>,
+}
+
+#[expect(clippy::ref_option, clippy::trivially_copy_pass_by_ref, reason = "serde hands over a reference to the field")]
+fn own_strain<S: Serializer>(strain: &Option<Strain>, serializer: S) -> Result<S::Ok, S::Error> {
+    match strain {
+        Some(strain) => StrainForm::serialize(strain, serializer),
+        None => serializer.serialize_none(),
+    }
+}
 
 #[derive(Serialize)]
 #[serde(remote = "Damping")]
