@@ -11,7 +11,7 @@ use super::studies::Owner;
 use super::{Command, Tautline, canvas, fields, number, view_link};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
-use crate::scenario::{Parameter, Scenario, link};
+use crate::scenario::{Parameter, Scenario, link, table};
 
 impl Tautline {
     pub(super) fn apply(&mut self, context: &Context, command: Command) {
@@ -21,6 +21,7 @@ impl Tautline {
                 self.edit(Document { scenario: *scenario, original });
             }
             Command::Load(scenario) => self.open(*scenario),
+            Command::Read(text) if files::is_table(&text) => self.take_cables(&text),
             Command::Read(text) => match files::scenario(&text) {
                 Ok(scenario) => {
                     self.open(scenario);
@@ -72,6 +73,11 @@ impl Tautline {
                 }
                 None => self.complain("There are no modes to copy at this pose.".into()),
             },
+            Command::CopyCables => {
+                let text = table::write(&self.present.document.scenario);
+                self.files.copy(context, Clip { what: "The table of cables", text, more: ".".into() });
+            }
+            Command::Paste => self.files.paste(context),
             Command::ChooseMode(choice) => {
                 self.session.mode = choice;
                 self.submit(&Request::Shape(choice));
@@ -165,6 +171,23 @@ impl Tautline {
         self.present.answers.begin(self.engine.revision + 1);
         self.edit(Document::opened(scenario));
         self.history.step(&self.present.document);
+    }
+
+    /// Takes the cables of a table over, as a step of its own. All else of the robot stays.
+    fn take_cables(&mut self, text: &str) {
+        let mut document = self.present.document.clone();
+        match table::read(text, &document.scenario) {
+            Ok(cables) => document.scenario.cables = cables,
+            Err(reason) => return self.complain(reason),
+        }
+        let wanted = document.scenario.clone();
+        self.history.step(&self.present.document);
+        self.edit(document);
+        self.history.step(&self.present.document);
+        if self.present.document.scenario == wanted {
+            self.notices.succeed(About::Action);
+            self.notices.tell(format!("{} cables are taken from the table.", wanted.cables.len()));
+        }
     }
 
     /// Takes a document over, where it is physical; else says why not and keeps the last good one.

@@ -12,7 +12,7 @@ pub enum Command {
     Edit(Box<Scenario>),
     /// Start from this scenario: values reset to what they are in it.
     Load(Box<Scenario>),
-    /// Start from the scenario that a file, a link or the clipboard holds.
+    /// Start from the scenario that a file, a link or the clipboard holds, or take over the cables in a table.
     Read(String),
     /// Back to the state before the last step.
     Undo,
@@ -32,6 +32,10 @@ pub enum Command {
     Save(Content),
     /// Put the table of modes on the clipboard.
     CopyModes,
+    /// Put the table of cables on the clipboard.
+    CopyCables,
+    /// Take what is on the clipboard, as if its keys had been pressed.
+    Paste,
     /// Show another mode's shape.
     ChooseMode(ModeChoice),
     /// Bring the control of this number into view.
@@ -61,8 +65,8 @@ pub enum Command {
 }
 
 impl Command {
-    /// Whether it puts something on the clipboard.
-    pub fn is_copy(&self) -> bool {
-        matches!(self, Self::Share | Self::Embed | Self::CopyModes)
+    /// Whether it puts something on the clipboard or reads it.
+    pub fn uses_clipboard(&self) -> bool {
+        matches!(self, Self::Share | Self::Embed | Self::CopyModes | Self::CopyCables | Self::Paste)
     }
 }

@@ -43,7 +43,7 @@ impl Field {
     }
 
     /// What messages call it: its letter, with the cable that it belongs to.
-    fn title(&self) -> String {
+    pub fn title(&self) -> String {
         match self.parameter {
             Parameter::Anchor(cable, _) => format!("{} of winch {}", self.symbol, cable + 1),
             Parameter::Tension(cable)
@@ -62,6 +62,17 @@ pub const MOTION: [Parameter; 4] =
     [Parameter::Speed, Parameter::Direction, Parameter::Position(0), Parameter::Position(1)];
 /// Those of the cables' material.
 pub const ROPE: [Parameter; 3] = [Parameter::YoungsModulus, Parameter::Area, Parameter::MassPerLength];
+/// Those of a cable's own material.
+pub fn own(cable: usize) -> [Parameter; 3] {
+    [Parameter::OwnYoungsModulus(cable), Parameter::OwnArea(cable), Parameter::OwnMassPerLength(cable)]
+}
+
+/// The number that counts: of a cable, its own where it has one, else that of all cables.
+pub fn value(parameter: Parameter, scenario: &Scenario) -> f64 {
+    let common = parameter.common().filter(|_| !parameter.is_in(scenario));
+    common.unwrap_or(parameter).get(scenario)
+}
+
 /// Those of the platform.
 pub const PLATFORM: [Parameter; 2] = [Parameter::PlatformMass, Parameter::Gravity];
 /// Damping.
@@ -197,7 +208,7 @@ fn at_path(path: &str, scenario: &Scenario) -> Option<Field> {
     all.into_iter().find(has).map(|parameter| Field::of(parameter, nowhere))
 }
 
-/// Puts another value, as it is stored, in the place of a number.
+/// Puts another value, as it is stored, in the place of a number. A cable that has none of its own gets one.
 ///
 /// # Errors
 /// Why it is not allowed, in the words of the field that it is about: mostly this one.
@@ -207,7 +218,7 @@ pub fn edited(scenario: &Scenario, field: &Field, value: f64, settings: Settings
         let fault = Fault::new(field.parameter.path(), value, Allowed::Whole(ELEMENTS));
         return Err(in_words(&fault, scenario, settings));
     }
-    field.parameter.set(&mut edited, value);
+    field.parameter.give(&mut edited, value);
     check(&edited, settings).map(|()| edited)
 }
 

@@ -459,8 +459,8 @@ impl eframe::App for Tautline {
         words::ui(&mut self.session.word, ui.ctx());
         let facts = self.present.facts(self.state.settings, self.session.mode);
         tour::ui(&mut self.state, &mut self.session, ui.ctx(), &self.screen.regions, facts);
-        // A browser lets a page write to the clipboard only while it handles the click that asks for it.
-        for command in self.commands.extract_if(.., |command| command.is_copy()).collect::<Vec<_>>() {
+        // A browser lets a page use the clipboard only while it handles the click that asks for it.
+        for command in self.commands.extract_if(.., |command| command.uses_clipboard()).collect::<Vec<_>>() {
             self.apply(ui.ctx(), command);
         }
         // Commands are carried out before the next frame; without one nothing would be seen of them.

@@ -203,11 +203,21 @@ pub struct Sections {
     pub damping: bool,
     /// Stiffness, strain, mesh.
     pub model: bool,
+    /// Hints at unusual numbers.
+    pub plausible: bool,
 }
 
 impl Default for Sections {
     fn default() -> Self {
-        Self { motion: true, cables: true, rope: false, platform: false, damping: false, model: false }
+        Self {
+            motion: true,
+            cables: true,
+            rope: false,
+            platform: false,
+            damping: false,
+            model: false,
+            plausible: false,
+        }
     }
 }
 

@@ -8,9 +8,12 @@ pub mod link;
 pub mod messages;
 pub mod options;
 mod parameter;
+pub mod plausible;
 pub mod presets;
 mod reader;
 pub mod report;
+pub mod ropes;
+pub mod table;
 
 pub use json::Scenario;
 pub use parameter::Parameter;

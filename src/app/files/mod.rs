@@ -15,7 +15,7 @@ use eframe::egui::{Align2, Color32, ColorImage, Context, Event, FontId, Id, Laye
 pub use outbox::Clip;
 
 use crate::app::command::Command;
-use crate::scenario::{Scenario, file, link};
+use crate::scenario::{Scenario, file, link, table};
 use outbox::Outbox;
 
 /// What comes of files that are being read.
@@ -52,6 +52,12 @@ impl Files {
     /// text is shown to be copied by hand.
     pub fn copy(&self, context: &Context, clip: Clip) {
         system::copy(self.outbox(context), clip);
+    }
+
+    /// Reads the clipboard, as if its keys had been pressed. Where a browser does not let the page do that, it is told to
+    /// press them.
+    pub fn paste(&self, context: &Context) {
+        system::paste(&self.outbox(context));
     }
 
     /// Saves the part of the window within `rect` as a PNG, once the window has been drawn again.
@@ -98,6 +104,12 @@ pub fn scenario(text: &str) -> Result<Scenario, String> {
         }
         _ => Scenario::from_json(text).map_err(|faults| faults.to_string()),
     }
+}
+
+/// Whether a file's or the clipboard's text is a table of cables, and neither a scenario nor a link.
+pub fn is_table(text: &str) -> bool {
+    let is_scenario = || file::without_mark(text).trim_start().starts_with('{') || text.contains(link::MARK);
+    file::check_size(text.len() as u64).is_ok() && !is_scenario() && table::is_table(text)
 }
 
 /// Says over the whole window that what is being dragged over it can be dropped.

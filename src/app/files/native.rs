@@ -4,7 +4,7 @@
 use std::path::Path;
 use std::thread;
 
-use eframe::egui::DroppedFileHandle;
+use eframe::egui::{DroppedFileHandle, ViewportCommand};
 use rfd::AsyncFileDialog;
 
 use super::outbox::{Clip, Outbox};
@@ -20,6 +20,11 @@ pub(super) fn copy(outbox: Outbox, clip: Clip) {
     let done = clip.done();
     outbox.context.copy_text(clip.text);
     outbox.command(Command::Done(Some(done)));
+}
+
+/// The window answers with the same event as after the keys.
+pub(super) fn paste(outbox: &Outbox) {
+    outbox.context.send_viewport_cmd(ViewportCommand::RequestPaste);
 }
 
 fn name(path: &Path) -> String {

@@ -119,6 +119,23 @@ fn put(outbox: Outbox, what: &'static str, text: String, done: Option<String>) {
     });
 }
 
+pub(super) fn paste(outbox: &Outbox) {
+    let keys = outbox.context.format_shortcut(&KeyboardShortcut::new(Modifiers::COMMAND, Key::V));
+    let refused = format!("The browser does not let the page read the clipboard. Press {keys} in its place.");
+    let outbox = outbox.clone();
+    // Some browsers have a clipboard that can only be written to.
+    let can_read = |clipboard: &web_sys::Clipboard| {
+        Reflect::get(clipboard, &"readText".into()).is_ok_and(|function| function.is_function())
+    };
+    let Some(clipboard) = clipboard().filter(can_read) else { return outbox.command(Command::Complain(refused)) };
+    // Begun at once: browsers allow it only while they handle a click.
+    let text = clipboard.read_text();
+    spawn_local(async move {
+        let text = JsFuture::from(text).await.ok().and_then(|text| text.as_string());
+        outbox.command(text.map_or(Command::Complain(refused), Command::Read));
+    });
+}
+
 /// Browsers have none for pages that came over plain http; the bindings take it for granted.
 fn clipboard() -> Option<web_sys::Clipboard> {
     let navigator = web_sys::window()?.navigator();

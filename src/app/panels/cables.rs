@@ -1,7 +1,11 @@
 //! The cables: a table of all of them, and the numbers of the one that is chosen.
 
-use eframe::egui::{Align2, Color32, ComboBox, FontId, Label, Pos2, RichText, Role, Sense, Ui, Vec2, WidgetInfo};
+use eframe::egui::{
+    Align2, Color32, ComboBox, FontId, Key, KeyboardShortcut, Label, Modifiers, Pos2, RichText, Role, Sense, Ui, Vec2,
+    WidgetInfo,
+};
 
+use super::ropes;
 use super::rows::{EditedScenario, list, rows};
 use crate::app::command::Command;
 use crate::app::facts::Facts;
@@ -10,9 +14,9 @@ use crate::app::meaning::Explain as _;
 use crate::app::number::{Control, Unit};
 use crate::app::state::Session;
 use crate::app::{canvas, fields, number, theme};
-use crate::robot::{BoundingBox, CABLES, TensionLaw};
-use crate::scenario::json::Cable;
-use crate::scenario::{Parameter, Scenario};
+use crate::robot::{BoundingBox, CABLES, OwnMaterial, Strain, TensionLaw};
+use crate::scenario::json::{Cable, Material};
+use crate::scenario::{Parameter, Scenario, table};
 
 /// The height of a row of the table.
 const ROW: f32 = 26.0;
@@ -23,7 +27,7 @@ pub(super) fn ui(
     ui: &mut Ui,
     sheet: &mut EditedScenario<'_>,
     facts: Facts<'_>,
-    _commands: &mut Vec<Command>,
+    commands: &mut Vec<Command>,
 ) {
     if let Some(parameter) = sheet.revealed {
         session.cable = cable_of(parameter).or(session.cable);
@@ -53,6 +57,7 @@ pub(super) fn ui(
             let cable = another(&sheet.edited);
             sheet.edited.cables.push(cable);
         }
+        clipboard(ui, height, commands);
         ui.toggle_value(&mut session.labels, "Labels").explained("Writes every cable's figures beside it");
         ui.toggle_value(&mut session.unlocked, "Unlock the winches").explained(
             "Winches can then be dragged on the canvas, or moved by arrow keys; frame and balance can be changed",
@@ -69,6 +74,24 @@ pub(super) fn ui(
             partner(ui, &mut sheet.edited, &pair, place);
         }
     });
+}
+
+/// The table to a spreadsheet, and from one.
+fn clipboard(ui: &mut Ui, height: f32, commands: &mut Vec<Command>) {
+    let button = |name, text| IconButton::new(Icon::None, name).text(text).height(height).framed();
+    let copy = button("Copy the cables", "Copy").show(ui);
+    if copy.explained("Puts the table on the clipboard, for a spreadsheet: m and N").clicked() {
+        commands.push(Command::CopyCables);
+    }
+    let keys = ui.ctx().format_shortcut(&KeyboardShortcut::new(Modifiers::COMMAND, Key::V));
+    let paste = button("Paste cables", "Paste").show(ui);
+    let meaning = format!(
+        "Takes the cables from a table on the clipboard: x, y in m and the tension, a number in N or \"balances\", with or \
+         without a row of names. Where the browser does not let the page read the clipboard, press {keys}."
+    );
+    if paste.explained(meaning).clicked() {
+        commands.push(Command::Paste);
+    }
 }
 
 /// The cable that a number belongs to.
@@ -160,10 +183,14 @@ fn row(
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), height), Sense::click());
     let chosen = session.cable == Some(cable);
     let blamed = blamed(facts) == Some(cable);
+    let own = !sheet.edited.cables[cable].cable.is_empty();
     let Figures { tension, now, reel } = Figures::of(&sheet.edited, facts, cable);
     let [x, y] = sheet.edited.cables[cable].anchor.map(|at| number::rounded(at, 4).replace('-', "−"));
     response.widget_info(|| WidgetInfo {
-        current_text_value: Some(format!("winch at ({x}, {y}) m, {tension}, {now} N, {reel} m/s")),
+        current_text_value: Some(format!(
+            "winch at ({x}, {y}) m, {tension}, {now} N, {reel} m/s{}",
+            if own { ", own material" } else { "" }
+        )),
         ..WidgetInfo::selected(Role::Button, true, chosen, format!("Cable {}", cable + 1))
     });
     if blamed {
@@ -176,6 +203,9 @@ fn row(
     let (fill, colour) = if blamed { (tokens.critical, tokens.on_accent) } else { (Color32::TRANSPARENT, tokens.text) };
     ui.painter().circle(disc, 8.5, fill, (1.0, if blamed { tokens.critical } else { tokens.frame }));
     ui.painter().text(disc, Align2::CENTER_CENTER, (cable + 1).to_string(), font, colour);
+    if own {
+        ui.painter().circle_filled(disc + Vec2::new(7.5, -7.5), 2.5, tokens.accent_text);
+    }
     let font = FontId::proportional(theme::BODY);
     let cell = |x: f32, align: Align2, text: &str, colour: Color32| {
         ui.painter().text(Pos2::new(rect.min.x + x, rect.center().y), align, text, font.clone(), colour);
@@ -186,7 +216,8 @@ fn row(
     cell(columns.tension, Align2::LEFT_CENTER, &tension, weak);
     cell(columns.now, Align2::RIGHT_CENTER, &now, tokens.text);
     cell(columns.reel, Align2::RIGHT_CENTER, &reel, tokens.text);
-    let more = "A click opens its numbers. Orange: the cable that the answer names.";
+    let more =
+        "A click opens its numbers. Orange: the cable that the answer names. A dot: it has a material of its own.";
     if response.explained_at_rest(more).clicked() {
         session.cable = (!chosen).then_some(cable);
     }
@@ -268,12 +299,47 @@ fn details(ui: &mut Ui, sheet: &mut EditedScenario<'_>, cable: usize) {
             _ => rows(ui, sheet, &fields::law(cable)),
         }
     }
+    own_material(ui, sheet, cable);
     let reason = why_it_stays(&sheet.edited, cable);
     let name = format!("Remove cable {}", cable + 1);
     let button = ui.add_enabled(reason.is_none(), eframe::egui::Button::new(name));
     if button.grey_because(ui, reason.unwrap_or_default()).clicked() {
         sheet.edited.cables.remove(cable);
     }
+}
+
+/// What this cable is made of, where it is not what all are made of.
+fn own_material(ui: &mut Ui, sheet: &mut EditedScenario<'_>, cable: usize) {
+    let mut own = !sheet.edited.cables[cable].cable.is_empty();
+    let meaning = "This cable has its own E, A, μ and strain law. Each begins with the value of all cables.";
+    if ui.checkbox(&mut own, "Own material").explained(meaning).changed() {
+        let Material { youngs_modulus, area, mass_per_length, strain } = sheet.edited.material_of(cable);
+        sheet.edited.cables[cable].cable = if own {
+            OwnMaterial {
+                youngs_modulus: Some(youngs_modulus),
+                area: Some(area),
+                mass_per_length: Some(mass_per_length),
+                strain: Some(strain),
+            }
+        } else {
+            OwnMaterial::default()
+        };
+    }
+    if !own {
+        return;
+    }
+    ropes::ui(ui, sheet, Some(cable));
+    rows(ui, sheet, &fields::own(cable));
+    ui.horizontal(|ui| {
+        ui.label("Strain").explained("Green: N = ½ EA (λ³ − λ). Engineering: N = EA (λ − 1).");
+        let all = [
+            (None, "as all".to_owned()),
+            (Some(Strain::Green), "Green".to_owned()),
+            (Some(Strain::Engineering), "engineering".to_owned()),
+        ];
+        let name = format!("Strain of cable {}", cable + 1);
+        list(ui, &name, &mut sheet.edited.cables[cable].cable.strain, &all, 110.0);
+    });
 }
 
 /// Width and height of the frame that the winches span; another one moves them all in proportion.
@@ -360,12 +426,7 @@ fn another(scenario: &Scenario) -> Cable {
         scenario.cables.iter().map(away).fold(f64::INFINITY, f64::min)
     };
     let anchor = places.into_iter().max_by(|a, b| room(a).total_cmp(&room(b))).unwrap_or([middle, top]);
-    let prescribed = scenario.cables.iter().filter(|cable| cable.tension != TensionLaw::Equilibrium);
-    let tensions: Vec<f64> = prescribed.map(|cable| cable.tension.at(scenario.motion.position)).collect();
-    let mean = tensions.iter().sum::<f64>() / tensions.len().max(1) as f64;
-    // To three digits: nobody means it more exactly.
-    let tension = format!("{mean:.2e}").parse().ok().filter(|tension| *tension > 0.0).unwrap_or(1.0);
-    Cable::new(anchor, TensionLaw::Constant(tension))
+    Cable::new(anchor, TensionLaw::Constant(table::usual_tension(scenario)))
 }
 
 #[cfg(test)]

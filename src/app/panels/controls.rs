@@ -5,8 +5,8 @@ use eframe::egui::{
     WidgetText,
 };
 
-use super::cables;
 use super::rows::{EditedScenario, in_a_row, rows};
+use super::{cables, plausible, ropes};
 use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::facts::Facts;
@@ -56,8 +56,11 @@ pub fn ui(
         group(&mut sections.cables, ui, "Cables", &count, touch, |ui| {
             cables::ui(session, ui, &mut sheet, facts, commands);
         });
-        let summary = values(&sheet, &fields::ROPE);
-        group(&mut sections.rope, ui, "Rope", &summary, touch, |ui| rows(ui, &mut sheet, &fields::ROPE));
+        let summary = ropes::name(&sheet.edited.cable).unwrap_or_else(|| values(&sheet, &fields::ROPE));
+        group(&mut sections.rope, ui, "Rope", &summary, touch, |ui| {
+            ropes::ui(ui, &mut sheet, None);
+            rows(ui, &mut sheet, &fields::ROPE);
+        });
         let summary = values(&sheet, &fields::PLATFORM);
         group(&mut sections.platform, ui, "Mass and gravity", &summary, touch, |ui| {
             rows(ui, &mut sheet, &fields::PLATFORM);
@@ -68,6 +71,10 @@ pub fn ui(
         group(&mut sections.model, ui, "Model", &summary, touch, |ui| {
             choices(ui, &mut sheet.edited, commands);
             rows(ui, &mut sheet, &[Parameter::Elements]);
+        });
+        let hints = plausible::of(facts);
+        group(&mut sections.plausible, ui, "Plausible?", &plausible::summary(&hints), touch, |ui| {
+            plausible::ui(ui, touch, &hints, commands);
         });
     }
     session.revealed = sheet.revealed;

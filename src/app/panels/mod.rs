@@ -3,5 +3,7 @@
 pub mod answer;
 mod cables;
 pub mod controls;
+mod plausible;
 pub mod plots;
+mod ropes;
 mod rows;

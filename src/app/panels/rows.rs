@@ -1,6 +1,6 @@
 //! The rows of controls: each number with its name, typed value and reset, its slider beneath.
 
-use eframe::egui::{Align, ComboBox, Label, Layout, Sense, Slider, SliderClamping, Ui, Vec2};
+use eframe::egui::{Align, ComboBox, Label, Layout, Response, Sense, Slider, SliderClamping, Ui, Vec2};
 
 use crate::app::canvas;
 use crate::app::fields::{self, Field};
@@ -15,7 +15,7 @@ use crate::scenario::{Parameter, Scenario};
 /// Room for a number with its unit, in points.
 pub(super) const NUMBER: Vec2 = Vec2::new(84.0, 24.0);
 /// The same for fingers.
-const NUMBER_FOR_FINGERS: Vec2 = Vec2::new(96.0, 44.0);
+pub(super) const NUMBER_FOR_FINGERS: Vec2 = Vec2::new(96.0, 44.0);
 
 /// The scenario on its way through the controls.
 pub(super) struct EditedScenario<'a> {
@@ -44,7 +44,7 @@ pub(super) fn rows(ui: &mut Ui, sheet: &mut EditedScenario<'_>, list: &[Paramete
 
 /// Name, reset and typed value on one line, the slider beneath over the full width. For fingers there are − and + as well.
 fn row(ui: &mut Ui, sheet: &mut EditedScenario<'_>, field: &Field) {
-    let value = field.parameter.get(&sheet.edited);
+    let value = fields::value(field.parameter, &sheet.edited);
     let unit = field.unit();
     let [low, high] = field.range;
     let before = unit.shown(value);
@@ -56,7 +56,10 @@ fn row(ui: &mut Ui, sheet: &mut EditedScenario<'_>, field: &Field) {
     };
     let size = if sheet.touch { NUMBER_FOR_FINGERS } else { NUMBER };
     let control = Control { name: field.symbol, unit, step, size };
-    let title = format!("{} {}", field.name, if field.symbol == field.name { "" } else { field.symbol });
+    let title = match field.parameter.common() {
+        Some(_) => field.title(),
+        None => format!("{} {}", field.name, if field.symbol == field.name { "" } else { field.symbol }),
+    };
     let title = title.trim_end();
     let line = ui.allocate_ui_with_layout(
         Vec2::new(ui.available_width(), size.y),
@@ -158,19 +161,36 @@ fn stepped(ui: &mut Ui, control: &Control<'_>, title: &str, value: f64) -> numbe
     answer
 }
 
-/// Takes a number back to what it was when the robot was opened, where it differs.
+/// Takes a number back to what it was when the robot was opened, where it differs. A cable's own one gives way to that of all
+/// cables.
 fn reset(ui: &mut Ui, sheet: &mut EditedScenario<'_>, field: &Field, title: &str) {
+    if let Some(common) = field.parameter.common() {
+        if !field.parameter.is_in(&sheet.edited) {
+            ui.weak("as all").explained("This cable has the value of all cables. Another value here is its own.");
+            return;
+        }
+        let unit = field.unit();
+        let value = unit.with_name(&number::brief(unit.shown(common.get(&sheet.edited))));
+        if reset_button(ui, sheet.touch, title).explained(format!("As all cables: {value}")).clicked() {
+            field.parameter.take_away(&mut sheet.edited);
+        }
+        return;
+    }
     let original = field.parameter.get(sheet.original);
     if !field.parameter.is_in(sheet.original) || same(field.parameter.get(&sheet.edited), original) {
         return;
     }
-    let height = if sheet.touch { 44.0 } else { 24.0 };
-    let button = IconButton::new(Icon::Reset, &format!("Reset {title}")).height(height).show(ui);
+    let button = reset_button(ui, sheet.touch, title);
     let unit = field.unit();
     let first = unit.with_name(&number::brief(unit.shown(original)));
     if button.explained(format!("Back to {first}")).clicked() {
         field.parameter.copy(sheet.original, &mut sheet.edited);
     }
+}
+
+fn reset_button(ui: &mut Ui, touch: bool, title: &str) -> Response {
+    let height = if touch { 44.0 } else { 24.0 };
+    IconButton::new(Icon::Reset, &format!("Reset {title}")).height(height).show(ui)
 }
 
 /// A list to choose from, named for those who do not see it.
