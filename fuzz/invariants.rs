@@ -18,7 +18,7 @@ use tautline::robot::{Faults, Linearisation, OwnMaterial, Strain};
 use tautline::scenario::link::{self, LinkError};
 use tautline::scenario::report::StatusReport;
 use tautline::scenario::{Report, Scenario, presets};
-use tautline::study::{Directions, Grid, Line, Mapped, Study};
+use tautline::study::{Directions, Grid, Line, Mapped, Reach, Study, Varied, WhatIf};
 
 /// A target: tries bytes and gives whether they were accepted.
 pub type Target = fn(&[u8]) -> bool;
@@ -237,6 +237,7 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
         let (position, direction) = (motion.position(), motion.direction());
         let (grid, mapped) = (Grid::of(&robot, 2, 2), Mapped::Critical { limit });
         let growth = Mapped::Growth { speed: motion.speed() };
+        let varied = |path: &str, values: &[f64]| Varied { path: path.into(), values: values.to_vec() };
         let studies = [
             Study::Line { line: Line::through(&robot, &motion, 3), limit },
             Study::Map { grid, directions: Directions::Worst(Directions::WORST_OF), mapped },
@@ -245,6 +246,8 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
             Study::Campbell { position, direction, to: 9.0, count: 3 },
             Study::Mesh { position, direction, counts: vec![2, 3], limit },
             Study::Border { grid },
+            Study::WhatIf(WhatIf { numbers: vec![varied("gravity", &[0.0, 9.81])], limit }),
+            Study::Reach(Reach { number: varied("platform.mass", &[1.0, 3.0]), target: 8.0, limit }),
         ];
         let study = studies[i % studies.len()].clone();
         let along_x = i % 2 == 0;
@@ -372,6 +375,13 @@ fn bound(study: &mut Study) {
             }
         }
         Study::Border { grid } => grid.nx = grid.nx.min(MOST_ELEMENTS),
+        Study::WhatIf(WhatIf { limit, .. }) => bound_speed(limit),
+        // A search as far as a wanted speed that is far away takes long.
+        Study::Reach(Reach { number, target, limit }) => {
+            number.values.truncate(MOST_PLACES);
+            bound_speed(target);
+            bound_speed(limit);
+        }
         Study::Campbell { .. } => {}
     }
 }

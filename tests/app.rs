@@ -657,6 +657,7 @@ fn maps_and_plots_of_studies_fit_a_phone() {
         ("Workspace", "Along the line"),
         ("Workspace", "Directions"),
         ("Model", "Speed diagram"),
+        ("Model", "What if"),
         ("Model", "Mesh error"),
     ] {
         app.get_by_role_and_label(Role::ComboBox, "Plot group").click();

@@ -168,7 +168,7 @@ fn rooms_use_only_those_before_them() {
 
 /// What the interface may name of the numerics: plain data, where things are, and sums over a handful of values. All else
 /// would compute on the thread that draws; it belongs to the engine or to the pool.
-const NAMED_BY_THE_APP: [&str; 24] = [
+const NAMED_BY_THE_APP: [&str; 29] = [
     "robot",
     "stability::Critical",
     "stability::Instability",
@@ -181,11 +181,16 @@ const NAMED_BY_THE_APP: [&str; 24] = [
     "study::Knob",
     "study::Line",
     "study::NoEigenvalues",
+    "study::Reach",
+    "study::Reached",
+    "study::reach::together",
     "study::Sensitivity",
     "study::Status",
     "study::Strip",
     "study::Study",
+    "study::Varied",
     "study::Verdict",
+    "study::WhatIf",
     "study::campbell::Track",
     "study::compass",
     "study::convergence",

@@ -19,7 +19,7 @@ mod interface;
 
 type App = Harness<'static, Tautline>;
 
-const PLOTS: [(&str, &str); 8] = [
+const PLOTS: [(&str, &str); 9] = [
     ("This pose", "Eigenvalues"),
     ("This pose", "Modes"),
     ("This pose", "Growth"),
@@ -27,6 +27,7 @@ const PLOTS: [(&str, &str); 8] = [
     ("Workspace", "Directions"),
     ("Model", "Speed diagram"),
     ("Model", "What to change"),
+    ("Model", "What if"),
     ("Model", "Mesh error"),
 ];
 

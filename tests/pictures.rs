@@ -61,7 +61,9 @@ fn shot(scenario: &Scenario, size: Vec2, theme: Theme, prepare: impl FnOnce(&mut
         app.step();
     }
     prepare(&mut app);
-    for topic in [Topic::Border, Topic::Line, Topic::Directions, Topic::Campbell, Topic::Mesh, Topic::Map] {
+    for topic in
+        [Topic::Border, Topic::Line, Topic::Directions, Topic::Campbell, Topic::Mesh, Topic::WhatIf, Topic::Map]
+    {
         wait(&mut app, "a study", |app| !app.at_work().contains(&topic));
     }
     app.run_steps(10);
@@ -155,6 +157,7 @@ fn all_pictures_that_are_wanted() {
             ("Workspace", "Directions"),
             ("Model", "Speed diagram"),
             ("Model", "What to change"),
+            ("Model", "What if"),
             ("Model", "Mesh error"),
         ] {
             let open = |app: &mut App| {

@@ -12,7 +12,7 @@ use tautline::compute::Pool;
 use tautline::compute::protocol::{Revision, StudyJob, StudyNews, Topic};
 use tautline::robot::Vec2;
 use tautline::scenario::{Scenario, presets};
-use tautline::study::{Answer, Directions, Grid, Line, Mapped, Study};
+use tautline::study::{Answer, Directions, Grid, Line, Mapped, Reach, Study, Varied, WhatIf};
 
 const LIMIT: f64 = 40.0;
 const TOO_LONG: Duration = Duration::from_mins(2);
@@ -259,6 +259,8 @@ fn numbers_that_are_not_allowed_are_refused() {
     let through = Line { from: Vec2::zeros(), to: Vec2::new(1.0, 0.0), direction, count };
     let (ahead, mapped) = (Directions::One(direction), Mapped::Critical { limit });
     let map = |grid, directions, mapped| Study::Map { grid, directions, mapped };
+    let varied = |path: &str, value: f64| Varied { path: path.into(), values: vec![value] };
+    let what_if = |numbers: Vec<Varied>, limit: f64| Study::WhatIf(WhatIf { numbers, limit });
     let refused = [
         Study::Line { line: Line { to: nowhere, ..through }, limit },
         Study::Line { line: Line { direction: Vec2::zeros(), ..through }, limit },
@@ -276,6 +278,13 @@ fn numbers_that_are_not_allowed_are_refused() {
         Study::Campbell { position, direction, to: f64::NAN, count },
         Study::Campbell { position, direction: nowhere, to: 9.0, count },
         Study::Mesh { position: nowhere, direction, counts: vec![2], limit },
+        what_if(vec![varied("gravity", f64::NAN)], limit),
+        what_if(vec![varied("gravity", 1.0)], f64::NAN),
+        what_if(Vec::new(), limit),
+        what_if(vec![varied("gravity", 1.0); 2], limit),
+        what_if(vec![varied("cable.colour", 1.0)], limit),
+        Study::Reach(Reach { number: varied("gravity", 1.0), target: 0.0, limit }),
+        Study::Reach(Reach { number: varied("gravity", 1.0), target: 2.0 * limit, limit }),
         Study::Modes { spectra: vec![(f64::NAN, Vec::new())] },
         Study::Modes { spectra: vec![(1.0, vec![Complex::new(0.0, f64::INFINITY)])] },
     ];

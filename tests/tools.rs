@@ -451,6 +451,7 @@ fn a_pinned_design_is_compared_with_the_present_one() {
         "Speed diagram",
         "Mesh error",
         "What to change",
+        "What if",
     ] {
         open_plot(&mut app, plot);
         settle(&mut app);

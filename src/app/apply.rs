@@ -84,6 +84,7 @@ impl Tautline {
                 self.notices.succeed(About::Action);
             }
             Command::Reveal(parameter) => self.reveal(parameter),
+            Command::WhatIf(parameter) => self.what_if(parameter),
             Command::Check(index) => self.submit(&Request::Check(index)),
             Command::StopStudy(topic) => {
                 let order = self.present.studies.stop(topic);
@@ -146,6 +147,17 @@ impl Tautline {
         self.state.panels.left = true;
         self.state.panels.left_where_narrow = true;
         self.session.large = None;
+    }
+
+    /// Varies a number in the plot that has shown the sensitivities.
+    fn what_if(&mut self, parameter: Parameter) {
+        self.state.what_if.choose(parameter);
+        let large = self.session.large.iter_mut();
+        for plot in [&mut self.state.plot, &mut self.state.second, &mut self.state.dock].into_iter().chain(large) {
+            if *plot == Plot::Sensitivities {
+                *plot = Plot::WhatIf;
+            }
+        }
     }
 
     /// A link to the robot as it is looked at.

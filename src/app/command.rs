@@ -40,6 +40,8 @@ pub enum Command {
     ChooseMode(ModeChoice),
     /// Bring the control of this number into view.
     Reveal(Parameter),
+    /// Show the critical speed against this number, in the place of the sensitivities.
+    WhatIf(Parameter),
     /// Stop what moves on the canvas, and go on by this number of steps.
     Step(f64),
     /// Move the platform to the last pose that had an equilibrium.

@@ -101,6 +101,7 @@ pub fn plot(plot: Plot, facts: Facts<'_>) -> Option<Table> {
         Plot::Campbell => study(Topic::Campbell).and_then(places),
         Plot::Mesh => study(Topic::Mesh).and_then(places),
         Plot::Sensitivities => sensitivities(facts),
+        Plot::WhatIf => study(Topic::WhatIf).and_then(places),
     }
 }
 
@@ -114,6 +115,7 @@ pub fn suffix(plot: Plot) -> &'static str {
         Plot::Campbell => "-campbell.csv",
         Plot::Mesh => "-mesh.csv",
         Plot::Sensitivities => "-sensitivities.csv",
+        Plot::WhatIf => "-what-if.csv",
     }
 }
 
@@ -154,6 +156,7 @@ fn sensitivities(facts: Facts<'_>) -> Option<Table> {
 fn places(known: &StudyResults) -> Option<Table> {
     let answered = || known.places.iter().enumerate().filter_map(|(i, answer)| Some((i, answer.as_ref()?)));
     let at: Box<dyn Fn(usize) -> Vec<String> + '_>;
+    let paths: Vec<&str>;
     let header: &[&str] = match &known.request.study {
         Study::Line { line, .. } => {
             at = Box::new(move |i| line.position(i).iter().map(ToString::to_string).collect());
@@ -177,7 +180,12 @@ fn places(known: &StudyResults) -> Option<Table> {
             at = Box::new(move |i| counts.get(i).map(ToString::to_string).into_iter().collect());
             &["elements_per_cable"]
         }
-        Study::Modes { .. } | Study::Border { .. } => return None,
+        Study::WhatIf(what_if) => {
+            at = Box::new(|i| what_if.values(i).iter().map(ToString::to_string).collect());
+            paths = what_if.numbers.iter().map(|number| number.path.as_str()).collect();
+            &paths
+        }
+        Study::Modes { .. } | Study::Border { .. } | Study::Reach(_) => return None,
     };
     let values: &[&str] = match answered().next()?.1 {
         Answer::Critical { .. } => &VERDICT,
@@ -221,7 +229,7 @@ mod tests {
     use crate::robot::Vec2;
     use crate::scenario::presets;
     use crate::stability::{Critical, Instability};
-    use crate::study::{Directions, Grid, Mapped};
+    use crate::study::{Directions, Grid, Mapped, Varied, WhatIf};
     use nalgebra::Complex;
 
     fn table(study: Study, answers: Vec<Answer>) -> String {
@@ -274,6 +282,14 @@ mod tests {
         assert_eq!(ends, ["-0.25,found", ",infeasible", ",failed"]);
         let spectra =
             vec![Answer::Spectrum(Ok(vec![Complex::new(-1.0, TAU)])), Answer::Spectrum(Err(NoEigenvalues::Failed))];
+        let number = |path: &str, values: &[f64]| Varied { path: path.into(), values: values.to_vec() };
+        let numbers = vec![number("gravity", &[0.0, 9.81]), number("cables[2].tension.constant", &[50.0])];
+        let verdicts = [Verdict::NoneUpTo(40.0), Verdict::Infeasible];
+        let answers = verdicts.map(|verdict| answer(verdict, None)).to_vec();
+        let csv = table(Study::WhatIf(WhatIf { numbers, limit: 40.0 }), answers);
+        let header =
+            "gravity,cables[2].tension.constant,feasible,critical_speed,frequency_hz,kind,cable,wave_limit,status";
+        assert_eq!(lines(&csv), [header, "0,50,true,,,,,,none", "9.81,50,false,,,,,,infeasible"]);
         let csv = table(Study::Campbell { position, direction, to: 2.0, count: 2 }, spectra);
         assert_eq!(lines(&csv), ["speed,growth_rate,frequency_hz,status", "0,-1,1,found", "2,,,failed"]);
     }

@@ -50,6 +50,7 @@ mod tour;
 mod transport;
 mod tree;
 mod view_link;
+mod what_if;
 mod windows;
 mod words;
 
@@ -272,7 +273,8 @@ impl Tautline {
         let critical =
             self.present.answers.last_critical().and_then(|answer| answer.critical.as_ref()).map(|c| c.speed);
         // A pose without an answer has no studies of its own: those of the last one stay, grey.
-        let of_pose = |plot: &state::Plot| *plot != state::Plot::Line && self.present.answers.pose_failed();
+        let has_others = |plot: &state::Plot| matches!(plot, state::Plot::Line | state::Plot::WhatIf);
+        let of_pose = |plot: &state::Plot| !has_others(plot) && self.present.answers.pose_failed();
         let plots: Vec<state::Plot> = self.screen.plots.iter().copied().filter(|plot| !of_pose(plot)).collect();
         let plots = plots.as_slice();
         let at_rest = self.present.answers.all_current() && !self.context.input(|input| input.pointer.any_down());

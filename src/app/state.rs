@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::app::settings::Settings;
 use crate::app::tour::Tour;
+use crate::app::what_if::WhatIfView;
 use crate::app::words::Word;
 use crate::compute::protocol::{ModeChoice, Which};
 use crate::scenario::{Parameter, Scenario};
@@ -46,6 +47,8 @@ pub enum Plot {
     Mesh,
     /// Sensitivities of the critical speed.
     Sensitivities,
+    /// Critical speed against any number of the robot.
+    WhatIf,
 }
 
 /// What a plot is about: the tabs are grouped by this.
@@ -64,7 +67,7 @@ impl PlotGroup {
     pub const ALL: [(Self, &'static str, &'static [Plot]); 3] = [
         (Self::Pose, "This pose", &[Plot::Eigenvalues, Plot::Modes, Plot::Growth]),
         (Self::Workspace, "Workspace", &[Plot::Line, Plot::Directions]),
-        (Self::Model, "Model", &[Plot::Campbell, Plot::Sensitivities, Plot::Mesh]),
+        (Self::Model, "Model", &[Plot::Campbell, Plot::Sensitivities, Plot::WhatIf, Plot::Mesh]),
     ];
 }
 
@@ -74,7 +77,7 @@ impl Plot {
         match self {
             Self::Eigenvalues | Self::Modes | Self::Growth => PlotGroup::Pose,
             Self::Line | Self::Directions => PlotGroup::Workspace,
-            Self::Campbell | Self::Sensitivities | Self::Mesh => PlotGroup::Model,
+            Self::Campbell | Self::Sensitivities | Self::WhatIf | Self::Mesh => PlotGroup::Model,
         }
     }
 
@@ -88,6 +91,7 @@ impl Plot {
             Self::Directions => "Directions",
             Self::Campbell => "Speed diagram",
             Self::Sensitivities => "What to change",
+            Self::WhatIf => "What if",
             Self::Mesh => "Mesh error",
         }
     }
@@ -102,6 +106,7 @@ impl Plot {
             Self::Directions => "directions",
             Self::Campbell => "speed",
             Self::Sensitivities => "change",
+            Self::WhatIf => "whatif",
             Self::Mesh => "mesh",
         }
     }
@@ -246,6 +251,9 @@ pub struct UiState {
     pub map: MapView,
     /// Up to which frequency the Campbell diagram is drawn, in Hz.
     pub campbell_hz: f64,
+    /// What the plot "What if" is asked; a restart begins anew.
+    #[serde(skip)]
+    pub what_if: WhatIfView,
     /// What people choose once.
     pub settings: Settings,
 }
@@ -329,6 +337,7 @@ impl Default for UiState {
             tour_taken: false,
             map: MapView::default(),
             campbell_hz: 5.0,
+            what_if: WhatIfView::default(),
             settings: Settings::default(),
         }
     }
@@ -417,9 +426,10 @@ mod tests {
             Plot::Directions => 4,
             Plot::Campbell => 5,
             Plot::Sensitivities => 6,
-            Plot::Mesh => 7,
+            Plot::WhatIf => 7,
+            Plot::Mesh => 8,
         };
-        assert_eq!(Plot::all().map(place).collect::<Vec<_>>(), (0..8).collect::<Vec<_>>());
+        assert_eq!(Plot::all().map(place).collect::<Vec<_>>(), (0..9).collect::<Vec<_>>());
         for (group, _, plots) in PlotGroup::ALL {
             assert!(plots.iter().all(|plot| plot.group() == group), "{plots:?}");
         }

@@ -12,6 +12,7 @@ mod native;
 mod pool;
 pub mod protocol;
 mod robot_study;
+mod variants;
 #[cfg(any(target_arch = "wasm32", test))]
 mod watch;
 #[cfg(target_arch = "wasm32")]

@@ -7,9 +7,10 @@ use nalgebra::Complex;
 use crate::robot::{Motion, Robot, Vec2};
 use crate::scenario::Scenario;
 use crate::stability::{ALLOWED_LIMIT, Steps, is_limit};
-use crate::study::{Answer, Directions, Mapped, Study};
+use crate::study::{Answer, Directions, Mapped, Reach, Study, Varied, WhatIf};
 
 use super::protocol::StudyJob;
+use super::variants::Variants;
 
 /// A place that looks in one direction has weight 1 if all cables together have this number of elements.
 const USUAL_ELEMENTS: f64 = 40.0;
@@ -19,6 +20,10 @@ const USUAL_CUBES: f64 = 1e6;
 const USUAL_COLUMNS: f64 = 20.0;
 /// A coarse map has every 4th point of every 4th row.
 const COARSE: usize = 4;
+/// A stretch in which a value is looked for takes about as long as so many critical speeds.
+const SPEEDS_OF_A_STRETCH: f64 = 8.0;
+/// The most numbers that a study may vary.
+const MOST_VARIED: usize = 2;
 /// The most places of a study, and the most directions at one place. The page asks for far fewer, so a message with more is
 /// none of the page's.
 const MOST_PLACES: usize = 1 << 20;
@@ -28,6 +33,7 @@ const MOST_DIRECTIONS: usize = 360;
 #[derive(Debug)]
 pub struct RobotStudy {
     robot: Robot,
+    variants: Variants,
     study: Study,
 }
 
@@ -40,7 +46,8 @@ impl RobotStudy {
         check(&job.study)?;
         let scenario = Scenario::from_json(&job.scenario).map_err(|faults| faults.to_string())?;
         let (robot, _) = scenario.to_robot().map_err(|faults| faults.to_string())?;
-        Ok(Self { robot, study: job.study.clone() })
+        let variants = Variants::new(scenario, job.study.varied())?;
+        Ok(Self { robot, variants, study: job.study.clone() })
     }
 
     /// All places, each once, in the order in which a picture becomes finer.
@@ -66,6 +73,8 @@ impl RobotStudy {
                 return (cubes.sum::<f64>() / USUAL_CUBES).max(1.0);
             }
             Study::Mesh { counts, .. } => counts.get(place).copied().unwrap_or_default(),
+            // The number of elements may be what is varied.
+            Study::WhatIf(what_if) => self.variants.at(&what_if.values(place)).map_or(0, |(robot, _)| robot.elements),
             _ => self.robot.elements,
         };
         let elements_of_all = (elements * self.robot.cables.len()) as f64 / USUAL_ELEMENTS;
@@ -73,17 +82,24 @@ impl RobotStudy {
         if let Study::Border { grid } = &self.study {
             return elements_of_all * grid.nx as f64 / USUAL_COLUMNS;
         }
-        let directions = match &self.study {
+        let searches = match &self.study {
             Study::Map { directions: Directions::Worst(count), .. } => *count as f64,
+            Study::Reach(_) => SPEEDS_OF_A_STRETCH,
             _ => 1.0,
         };
-        directions * elements_of_all * elements_of_all
+        searches * elements_of_all * elements_of_all
     }
 
     /// The answer at one place, step by step.
     pub fn answer(self: &Arc<Self>, place: usize) -> Steps<Answer> {
         let places = Arc::clone(self);
-        Steps::new(async move { places.study.answer_in_steps(&places.robot, place).await })
+        Steps::new(async move {
+            let variant = |values: &[f64]| places.variants.at(values);
+            match places.study.varied_in_steps(&variant, place).await {
+                Some(answer) => answer,
+                None => places.study.answer_in_steps(&places.robot, place).await,
+            }
+        })
     }
 
     /// The answer at a place where every attempt has failed.
@@ -142,6 +158,24 @@ fn check(study: &Study) -> Result<(), String> {
             }
             motion(grid.low, Vec2::x(), 0.0)?;
             motion(grid.high, Vec2::x(), 0.0)?;
+        }
+        Study::WhatIf(WhatIf { numbers, limit }) => {
+            search_limit(*limit)?;
+            if !(1..=MOST_VARIED).contains(&numbers.len()) {
+                return Err(format!("{} numbers are varied; allowed: 1 or {MOST_VARIED}", numbers.len()));
+            }
+        }
+        Study::Reach(Reach { target, limit, .. }) => {
+            search_limit(*limit)?;
+            search_limit(*target)?;
+            if target > limit {
+                return Err(format!("the wanted critical speed is {target}; allowed: at most {limit}, the limit"));
+            }
+        }
+    }
+    for Varied { path, values } in study.varied() {
+        if let Some(value) = values.iter().find(|value| !value.is_finite()) {
+            return Err(format!("{path}: a value is {value}; allowed: finite numbers"));
         }
     }
     Ok(())

@@ -37,7 +37,7 @@ pub fn workspace(robot: &Robot) -> [Vec2; 2] {
 
 /// The indices of `columns` × `rows` points, row by row, those of a coarse picture first: every 8th of every 8th row,
 /// then every 4th, every 2nd, all. Each index once.
-fn coarse_first(columns: usize, rows: usize) -> Vec<usize> {
+pub(super) fn coarse_first(columns: usize, rows: usize) -> Vec<usize> {
     let mut order = Vec::with_capacity(columns * rows);
     let mut step = COARSEST;
     while step > 0 {

@@ -6,9 +6,12 @@ use nalgebra::Complex;
 use crate::robot::{Motion, Robot, RobotSpec, Vec2};
 use crate::stability::steps::finish;
 use crate::study::campbell::{self, Track};
-use crate::study::grid::coarse_first_in_a_row;
+use crate::study::grid::{coarse_first, coarse_first_in_a_row};
 use crate::study::verdict::verdict_in_steps;
-use crate::study::{Directions, Grid, Line, LocalProblem, NoEigenvalues, Strip, Verdict, compass, evenly};
+use crate::study::{
+    Directions, Grid, Line, LocalProblem, NoEigenvalues, Reach, Stretch, Strip, Variant, Varied, Verdict, WhatIf,
+    compass, evenly,
+};
 
 /// What a map shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,6 +93,10 @@ pub enum Study {
         /// Where.
         grid: Grid,
     },
+    /// The critical speed with other values of one number or two: only [`Study::varied_in_steps`] answers it.
+    WhatIf(WhatIf),
+    /// The value of a number at which the critical speed is the wanted one: only [`Study::varied_in_steps`] answers it.
+    Reach(Reach),
 }
 
 /// What a study is about: of each topic at most one study is at work.
@@ -110,12 +117,25 @@ pub enum Topic {
     Modes,
     /// The border of the feasible region.
     Border,
+    /// Critical speeds with other values of a number.
+    WhatIf,
+    /// The value at which the critical speed is the wanted one.
+    Reach,
 }
 
 impl Topic {
     /// All of them.
-    pub const ALL: [Self; 7] =
-        [Self::Line, Self::Map, Self::Directions, Self::Campbell, Self::Mesh, Self::Modes, Self::Border];
+    pub const ALL: [Self; 9] = [
+        Self::Line,
+        Self::Map,
+        Self::Directions,
+        Self::Campbell,
+        Self::Mesh,
+        Self::Modes,
+        Self::Border,
+        Self::WhatIf,
+        Self::Reach,
+    ];
 
     /// Its name for programs.
     pub fn name(self) -> &'static str {
@@ -127,6 +147,8 @@ impl Topic {
             Self::Mesh => "mesh",
             Self::Modes => "modes",
             Self::Border => "border",
+            Self::WhatIf => "what_if",
+            Self::Reach => "reach",
         }
     }
 }
@@ -153,6 +175,8 @@ pub enum Answer {
     Modes(Result<Vec<Track>, NoEigenvalues>),
     /// The feasible region from one row of a grid to the next.
     Border(Strip),
+    /// Where the critical speed is the wanted one, from one value to the next.
+    Reach(Stretch),
 }
 
 impl Study {
@@ -166,6 +190,8 @@ impl Study {
             Self::Mesh { .. } => Topic::Mesh,
             Self::Modes { .. } => Topic::Modes,
             Self::Border { .. } => Topic::Border,
+            Self::WhatIf(_) => Topic::WhatIf,
+            Self::Reach(_) => Topic::Reach,
         }
     }
 
@@ -178,6 +204,8 @@ impl Study {
             Self::Mesh { counts, .. } => counts.len(),
             Self::Modes { .. } => 1,
             Self::Border { grid } => grid.ny,
+            Self::WhatIf(what_if) => what_if.len(),
+            Self::Reach(reach) => reach.len(),
         }
     }
 
@@ -191,6 +219,10 @@ impl Study {
     pub fn order(&self) -> Vec<usize> {
         match self {
             Self::Map { grid, .. } => grid.coarse_first(),
+            Self::WhatIf(WhatIf { numbers, .. }) => match &numbers[..] {
+                [columns, rows] => coarse_first(columns.values.len(), rows.values.len()),
+                _ => coarse_first_in_a_row(self.len()),
+            },
             Self::Mesh { counts, .. } => {
                 let mut order: Vec<usize> = (0..counts.len()).collect();
                 order.sort_by_key(|&index| counts[index]);
@@ -234,6 +266,30 @@ impl Study {
             }
             Self::Modes { spectra } => Answer::Modes(Ok(campbell::track_in_steps(spectra).await)),
             Self::Border { grid } => Answer::Border(Strip::new(robot, grid, index).await),
+            // One robot alone has no other values.
+            Self::WhatIf(_) | Self::Reach(_) => self.unknown(index),
+        }
+    }
+
+    /// The answer at one place of a study that varies numbers, whose robots `variant` builds; `None` of other studies. In
+    /// [steps](crate::stability::steps).
+    pub async fn varied_in_steps(&self, variant: &Variant<'_>, index: usize) -> Option<Answer> {
+        match self {
+            Self::WhatIf(what_if) => {
+                let (direction, verdict, wave_limit) = what_if.verdict_in_steps(variant, index).await;
+                Some(Answer::Critical { direction, verdict, wave_limit })
+            }
+            Self::Reach(reach) => Some(Answer::Reach(reach.stretch_in_steps(variant, index).await)),
+            _ => None,
+        }
+    }
+
+    /// The numbers that it varies.
+    pub fn varied(&self) -> &[Varied] {
+        match self {
+            Self::WhatIf(what_if) => &what_if.numbers,
+            Self::Reach(reach) => std::slice::from_ref(&reach.number),
+            _ => &[],
         }
     }
 
@@ -245,11 +301,12 @@ impl Study {
             Self::Map { directions: Directions::One(direction), .. } | Self::Mesh { direction, .. } => {
                 unknown(*direction)
             }
-            Self::Map { directions: Directions::Worst(_), .. } => unknown(Vec2::x()),
+            Self::Map { directions: Directions::Worst(_), .. } | Self::WhatIf(_) => unknown(Vec2::x()),
             Self::Directions { count, .. } => unknown(compass(index, *count)),
             Self::Campbell { .. } => Answer::Spectrum(Err(NoEigenvalues::Failed)),
             Self::Modes { .. } => Answer::Modes(Err(NoEigenvalues::Failed)),
             Self::Border { grid } => Answer::Border(Strip::unknown(grid.nx)),
+            Self::Reach(_) => Answer::Reach(Stretch::default()),
         }
     }
 }
@@ -294,7 +351,9 @@ mod tests {
             Topic::Campbell => Some(Topic::Mesh),
             Topic::Mesh => Some(Topic::Modes),
             Topic::Modes => Some(Topic::Border),
-            Topic::Border => None,
+            Topic::Border => Some(Topic::WhatIf),
+            Topic::WhatIf => Some(Topic::Reach),
+            Topic::Reach => None,
         };
         let all: Vec<Topic> = std::iter::successors(Some(Topic::Line), |topic| after(*topic)).collect();
         assert_eq!(all, Topic::ALL);

@@ -51,7 +51,7 @@ const TYPES = {
 export const PLOTS = {
     "This pose": ["Eigenvalues", "Modes", "Growth"],
     "Workspace": ["Along the line", "Directions"],
-    "Model": ["Speed diagram", "What to change", "Mesh error"],
+    "Model": ["Speed diagram", "What to change", "What if", "Mesh error"],
 };
 
 /** The group of controls that a field is in, where it is not one that is open at first. */

@@ -2,6 +2,7 @@
 
 mod findings;
 mod segments;
+mod what_if;
 
 use std::f64::consts::TAU;
 
@@ -12,6 +13,8 @@ use crate::stability::{Critical, first_lowest};
 use crate::study::campbell::Track;
 use crate::study::convergence::{self, Convergence};
 use crate::study::{Answer, Study, Verdict, compass, evenly};
+pub use what_if::Against;
+
 use segments::{Sample, segments};
 
 /// How a line's places are measured.

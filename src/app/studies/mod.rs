@@ -7,6 +7,7 @@
 mod joined;
 mod request;
 mod shared;
+mod varied;
 
 pub use joined::Joined;
 pub use request::{StudyRequest, wanted};

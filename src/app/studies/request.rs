@@ -1,12 +1,13 @@
 //! What a study depends on, and which studies are wanted.
 
 use crate::app::state::{MapQuantity, Plot, UiState};
+use crate::app::studies::varied::varied;
 use crate::compute::protocol::Topic;
 use crate::robot::{Damping, Linearisation, Robot};
 use crate::scenario::Scenario;
 use crate::scenario::json::Motion;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
-use crate::study::{Directions, Grid, Line, Mapped, Study, workspace};
+use crate::study::{Directions, Grid, Line, Mapped, Study, WhatIf, workspace};
 
 /// About how many intervals a map has; spread so that they are as wide as they are high.
 const MAP_INTERVALS: f64 = 800.0;
@@ -72,6 +73,9 @@ impl StudyRequest {
         match &self.study {
             Study::Map { grid, .. } => grid.nx.div_ceil(4) * grid.ny.div_ceil(4),
             Study::Border { grid } => grid.ny,
+            Study::WhatIf(WhatIf { numbers, .. }) if numbers.len() > 1 => {
+                numbers.iter().map(|number| number.values.len().div_ceil(4)).product()
+            }
             study => study.len().div_ceil(4),
         }
     }
@@ -117,6 +121,10 @@ pub fn wanted(
     if shows(&[Plot::Campbell, Plot::Eigenvalues]) {
         let to = highest_speed(motion.speed(), critical);
         requests.push(StudyRequest::new(scenario, Study::Campbell { position, direction, to, count: SPEEDS }));
+    }
+    if shows(&[Plot::WhatIf]) {
+        let studies = varied(scenario, &state.what_if).into_iter();
+        requests.extend(studies.map(|(scenario, study)| StudyRequest { scenario, study }));
     }
     let meshes = if shows(&[Plot::Mesh]) {
         Some(meshes(scenario.elements_per_cable))

@@ -16,6 +16,8 @@ use eframe::egui::{
 };
 
 pub use lines::Taken;
+pub use paint::{colour, corners, hatching};
+pub use picture::{Cell, Picture};
 
 use super::View;
 use super::range::KeptRange;
@@ -34,7 +36,7 @@ use crate::stability::Instability;
 use crate::study::{Answer, Directions, Mapped, NoEigenvalues, Study, Verdict};
 use lines::Lines;
 use paint::Texture;
-use picture::{NO_EQUILIBRIUM, NOT_COMPUTED, Picture};
+use picture::{NO_EQUILIBRIUM, NOT_COMPUTED};
 use region::Region;
 
 /// While answers come in, the picture is made anew this often, in seconds.

@@ -61,7 +61,12 @@ impl Picture {
     /// The picture of `quantity`, where `known` is a map.
     pub fn new(known: &StudyResults, quantity: MapQuantity) -> Option<Self> {
         let Study::Map { grid, .. } = known.request.study else { return None };
-        let own: Vec<Cell> = known.places.iter().map(|answer| cell(answer.as_ref(), quantity)).collect();
+        Some(Self::of(grid, &known.places, quantity))
+    }
+
+    /// The picture of `quantity` where `places` are the answers at the points of `grid`.
+    pub fn of(grid: Grid, places: &[Option<Answer>], quantity: MapQuantity) -> Self {
+        let own: Vec<Cell> = places.iter().map(|answer| cell(answer.as_ref(), quantity)).collect();
         let cells: Vec<Cell> = (0..own.len()).map(|index| own[coarser(&grid, index, &own)]).collect();
         let found = cells.iter().fold(None, |range: Option<[f64; 2]>, cell| match cell {
             Cell::Value(value) => {
@@ -77,13 +82,13 @@ impl Picture {
             }
             _ => [low, high],
         });
-        let none_up_to = known.places.iter().filter_map(|answer| match answer {
+        let none_up_to = places.iter().filter_map(|answer| match answer {
             Some(Answer::Critical { verdict: Verdict::NoneUpTo(speed), .. }) => Some(*speed),
             _ => None,
         });
         let none_up_to = none_up_to.reduce(f64::max);
-        let (extremes, finest) = (extremes(&own), finest(&grid, &known.places));
-        Some(Self { grid, quantity, cells, found, range, extremes, finest, none_up_to })
+        let (extremes, finest) = (extremes(&own), finest(&grid, places));
+        Self { grid, quantity, cells, found, range, extremes, finest, none_up_to }
     }
 
     /// Whether some values lie below the range of the colours, and whether some lie above it.

@@ -78,6 +78,7 @@ pub fn topic(plot: Plot) -> Option<Topic> {
         Plot::Directions => Some(Topic::Directions),
         Plot::Campbell => Some(Topic::Campbell),
         Plot::Mesh => Some(Topic::Mesh),
+        Plot::WhatIf => Some(Topic::WhatIf),
         Plot::Eigenvalues | Plot::Modes | Plot::Growth | Plot::Sensitivities => None,
     }
 }
@@ -127,7 +128,7 @@ pub fn speed(facts: Facts<'_>, critical: &Critical) -> String {
 /// The study's answers, once there are any. Where the present pose cannot rest, what is of one pose is an earlier one's.
 pub fn study(topic: Topic, facts: Facts<'_>) -> Option<Shown<'_>> {
     let shown = facts.studies.shown(topic).filter(|shown| shown.known.answered() > 0)?;
-    let of_this_pose = topic == Topic::Line || !facts.answers.pose_failed();
+    let of_this_pose = matches!(topic, Topic::Line | Topic::WhatIf) || !facts.answers.pose_failed();
     Some(Shown { current: shown.current && of_this_pose, ..shown })
 }
 
@@ -139,7 +140,11 @@ pub fn say(ui: &mut Ui, text: &str) {
 
 /// How far a plot's study has come, with what stops it or goes on; whether there was anything to tell.
 pub fn progress(ui: &mut Ui, plot: Plot, studies: &Studies, commands: &mut Vec<Command>) -> bool {
-    let Some(topic) = topic(plot) else { return false };
+    topic(plot).is_some_and(|topic| progress_of(ui, topic, studies, commands))
+}
+
+/// How far a study has come, with what stops it or goes on; whether there was anything to tell.
+pub fn progress_of(ui: &mut Ui, topic: Topic, studies: &Studies, commands: &mut Vec<Command>) -> bool {
     let progress = studies.progress(topic);
     let resumed = |ui: &mut Ui, name: &str, commands: &mut Vec<Command>| {
         if ui.button(name).clicked() {

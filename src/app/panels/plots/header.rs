@@ -293,6 +293,7 @@ fn caption(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<C
         Plot::Eigenvalues | Plot::Modes => kept.unwrap_or_else(|| "Click one: its mode moves.".into()),
         Plot::Growth => kept.unwrap_or_else(|| "Above zero something grows.".into()),
         Plot::Sensitivities => kept.unwrap_or_else(|| "Click one to turn it.".into()),
+        Plot::WhatIf => "Click to set the value.".into(),
     };
     ui.add(Label::new(RichText::new(text).weak().small()).truncate());
 }

@@ -14,6 +14,7 @@ mod mesh;
 mod modes;
 mod range;
 mod sensitivities;
+mod what_if;
 
 use eframe::egui::{Align, Id, Label, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
@@ -83,7 +84,7 @@ pub fn ui(
             if slot.is_under_the_robot() && place.plot == Plot::Line && !told {
                 line::ui(place, view, ui, facts, commands);
             } else {
-                gestures::scroll(ui, |ui| explained(place, view, &mut state.campbell_hz, ui, facts, commands));
+                gestures::scroll(ui, |ui| explained(place, view, state, ui, facts, commands));
             }
         });
         if foot > 0.0 {
@@ -110,7 +111,7 @@ pub fn ui(
 fn explained(
     place: PlotPlace,
     view: Option<&View>,
-    highest: &mut f64,
+    state: &mut UiState,
     ui: &mut Ui,
     facts: Facts<'_>,
     commands: &mut Vec<Command>,
@@ -131,9 +132,10 @@ fn explained(
             Plot::Growth => growth::ui(place, ui, facts),
             Plot::Line => line::ui(place, view, ui, facts, commands),
             Plot::Directions => directions::ui(place, ui, facts, commands),
-            Plot::Campbell => campbell::ui(place, highest, ui, facts, commands),
+            Plot::Campbell => campbell::ui(place, &mut state.campbell_hz, ui, facts, commands),
             Plot::Mesh => mesh::ui(place, ui, facts),
             Plot::Sensitivities => sensitivities::ui(ui, facts, commands),
+            Plot::WhatIf => what_if::ui(place, &mut state.what_if, ui, facts, commands),
         }
     });
     if let Some(text) = text {
@@ -152,5 +154,6 @@ fn explanation(plot: Plot, facts: Facts<'_>) -> String {
         Plot::Campbell => campbell::MEANING.into(),
         Plot::Mesh => mesh::MEANING.into(),
         Plot::Sensitivities => sensitivities::MEANING.into(),
+        Plot::WhatIf => what_if::MEANING.into(),
     }
 }

@@ -1,12 +1,13 @@
 //! What to change: by how much the critical speed changes with each number of the robot.
 
-use eframe::egui::{Align2, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo};
+use eframe::egui::{Align, Align2, Layout, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo};
 
 use super::axis::signed;
 use super::common;
 use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
+use crate::app::icons::{Icon, IconButton};
 use crate::app::meaning::Explain as _;
 use crate::app::theme;
 use crate::robot::TensionLaw;
@@ -47,9 +48,22 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing.y = 0.0;
     for one in &found {
         let then = before.and_then(|all| all.iter().find(|other| other.knob == one.knob)).map(|other| other.speed);
-        if bar(ui, one, [largest, uncertainty], then, current) {
-            commands.push(Command::Reveal(control(one.knob, &document.scenario)));
-        }
+        let number = control(one.knob, &document.scenario);
+        let height = ui.spacing().interact_size.y.max(26.0);
+        ui.allocate_ui_with_layout(
+            Vec2::new(ui.available_width(), height),
+            Layout::right_to_left(Align::Center),
+            |ui| {
+                let name = format!("What if {}", name(one.knob));
+                let button = IconButton::new(Icon::None, &name).text("what if").height(height).show(ui);
+                if button.explained("The critical speed against this number").clicked() {
+                    commands.push(Command::WhatIf(number));
+                }
+                if bar(ui, one, [largest, uncertainty], then, current) {
+                    commands.push(Command::Reveal(number));
+                }
+            },
+        );
     }
 }
 
@@ -124,7 +138,7 @@ fn name(knob: Knob) -> String {
 }
 
 /// The control that turns a knob: of a tension law its first coefficient.
-fn control(knob: Knob, scenario: &Scenario) -> Parameter {
+pub(super) fn control(knob: Knob, scenario: &Scenario) -> Parameter {
     match knob {
         Knob::YoungsModulus => Parameter::YoungsModulus,
         Knob::Area => Parameter::Area,
