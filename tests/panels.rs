@@ -116,10 +116,10 @@ fn no_content_changes_a_panels_width() {
             same(&app, typed);
         }
         type_value(&mut app, "Speed v", "123456.789012");
-        app.get_by_role_and_label(Role::Button, "Pin").click();
+        app.get_by_role_and_label(Role::Button, "Keep").click();
         settle(&mut app);
         type_value(&mut app, "Platform mass m", "3");
-        same(&app, "a pinned design");
+        same(&app, "a kept design");
         for plot in PLOTS {
             open(&mut app, plot);
             same(&app, plot.1);

@@ -194,7 +194,7 @@ fn the_value_that_a_critical_speed_comes_from_is_found_again() {
 #[test]
 fn what_is_out_of_reach_says_how_far_it_gets() {
     let tension = |scenario: &Scenario| {
-        let law = |cable: &tautline::scenario::v1::Cable| cable.tension != TensionLaw::Equilibrium;
+        let law = |cable: &tautline::scenario::json::Cable| cable.tension != TensionLaw::Equilibrium;
         scenario.cables.iter().position(law).expect("a prescribed tension")
     };
     let scenario = paper();

@@ -213,7 +213,7 @@ fn a_fault_stays_until_the_next_thing_succeeds() {
     interface::wait(&mut app, "the second", |app| app.notice().is_some_and(|notice| notice.contains("second.json")));
     app.run_steps(2);
     assert!(!said(&app, "on the clipboard"), "what was done is old");
-    app.get_by_role_and_label(Role::Button, "Pin").click();
+    app.get_by_role_and_label(Role::Button, "Keep").click();
     app.run_steps(3);
     assert_eq!(app.state().notice(), None);
     first.remove();
@@ -431,15 +431,15 @@ fn the_menus_fit_a_phone() {
 }
 
 #[test]
-fn a_pinned_design_is_compared_with_the_present_one() {
+fn a_kept_design_is_compared_with_the_present_one() {
     let mut app = app();
-    app.get_by_role_and_label(Role::Button, "Pin").click();
+    app.get_by_role_and_label(Role::Button, "Keep").click();
     app.run_steps(3);
-    interface::wait_for_label(&mut app, "Pinned: 11.3 m/s. Now +0 m/s (+0 %)");
+    interface::wait_for_label(&mut app, "A: 11.3 m/s. Now +0 m/s (+0 %)");
     drag_platform(&mut app, Vec2::new(60.0, 0.0));
     let now = report(&app).critical.expect("a critical speed").speed;
     let difference = now - interface::cold(&paper()).critical.expect("a critical speed").speed;
-    let text = interface::label(&app, "Pinned: 11.3 m/s. Now ");
+    let text = interface::label(&app, "A: 11.3 m/s. Now ");
     assert!(interface::rounds(&text, "Now ", difference), "{text}: {difference}");
     // Every plot goes on with it.
     for plot in [
@@ -456,9 +456,16 @@ fn a_pinned_design_is_compared_with_the_present_one() {
         open_plot(&mut app, plot);
         settle(&mut app);
     }
-    app.get_by_role_and_label(Role::Button, "Unpin").click();
+    remove_design(&mut app);
+    assert!(app.query_by_label_contains("A: 11.").is_none());
+}
+
+/// Lets design A go.
+fn remove_design(app: &mut Harness<'static, Tautline>) {
+    app.get_by_role_and_label(Role::Button, "Designs").click();
+    app.run_steps(5);
+    app.get_by_role_and_label(Role::Button, "Remove A").click();
     app.run_steps(3);
-    assert!(app.query_by_label_contains("Pinned: 11.").is_none());
 }
 
 /// A robot whose analysis takes many frames.
@@ -467,7 +474,7 @@ fn slow() -> Scenario {
 }
 
 #[test]
-fn pin_while_recomputing_pins_the_design_that_was_on_the_screen() {
+fn keep_while_recomputing_keeps_the_design_that_was_on_the_screen() {
     let mut app = app_with(slow(), Vec2::new(1280.0, 800.0), Theme::Light);
     app.get_by_label("Platform").focus();
     app.run_steps(2);
@@ -477,7 +484,7 @@ fn pin_while_recomputing_pins_the_design_that_was_on_the_screen() {
     assert!(app.state().analysis().is_some_and(|analysis| !analysis.current), "not recomputing");
     let wanted = app.state().scenario().clone();
     assert_eq!(wanted.motion.position, [0.1, 0.0]);
-    app.get_by_role_and_label(Role::Button, "Pin").click();
+    app.get_by_role_and_label(Role::Button, "Keep").click();
     app.run_steps(2);
     app.get_by_label("Platform").focus();
     app.run_steps(1);
@@ -486,30 +493,29 @@ fn pin_while_recomputing_pins_the_design_that_was_on_the_screen() {
         app.run_steps(2);
     }
     settle(&mut app);
-    interface::wait(&mut app, "the pinned design", |app| app.pinned().is_some_and(|(_, complete)| complete));
+    interface::wait(&mut app, "the kept design", |app| app.designs().iter().any(|(_, _, complete)| *complete));
     app.run_steps(3);
-    assert_eq!(app.state().pinned().map(|(scenario, _)| scenario.clone()), Some(wanted.clone()));
+    assert_eq!(app.state().designs().first().map(|(_, scenario, _)| (*scenario).clone()), Some(wanted.clone()));
     let now = report(&app).critical.expect("a critical speed").speed;
     let pinned = interface::cold(&wanted).critical.expect("a critical speed").speed;
     assert!(pinned != now && pinned != before);
-    let text = interface::label(&app, "Pinned: ");
-    assert!(interface::rounds(&text, "Pinned: ", pinned) && interface::rounds(&text, "Now ", now - pinned), "{text}");
+    let text = interface::label(&app, "A: ");
+    assert!(interface::rounds(&text, "A: ", pinned) && interface::rounds(&text, "Now ", now - pinned), "{text}");
 }
 
 #[test]
-fn unpinning_stops_the_pinned_designs_study() {
+fn removing_a_design_stops_its_study() {
     let mut app = app_with(slow(), Vec2::new(1280.0, 800.0), Theme::Light);
-    app.get_by_role_and_label(Role::Button, "Pin").click();
+    app.get_by_role_and_label(Role::Button, "Keep").click();
     app.run_steps(3);
-    interface::wait(&mut app, "the pinned design", |app| app.pinned().is_some_and(|(_, complete)| complete));
+    interface::wait(&mut app, "the kept design", |app| app.designs().iter().any(|(_, _, complete)| *complete));
     open_plot(&mut app, "Directions");
-    // The same study is remembered; the other one belongs to the pinned design.
+    // The same study is remembered; the other one belongs to the kept design.
     open_groups(&mut app);
     type_value(&mut app, "Elements per cable n", "4");
     interface::wait(&mut app, "the present design's study", |app| app.study(Topic::Directions).2);
-    interface::wait(&mut app, "the pinned design's study", |app| app.at_work().contains(&Topic::Directions));
-    app.get_by_role_and_label(Role::Button, "Unpin").click();
-    app.run_steps(3);
+    interface::wait(&mut app, "the kept design's study", |app| app.at_work().contains(&Topic::Directions));
+    remove_design(&mut app);
     assert!(!app.state().at_work().contains(&Topic::Directions), "it goes on: {:?}", app.state().at_work());
 }
 

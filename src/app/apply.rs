@@ -2,10 +2,11 @@
 
 use eframe::egui::Context;
 
+use super::designs::Action;
 use super::export::{self, Content};
+use super::facts::Present;
 use super::files::{self, Clip};
 use super::notices::About;
-use super::pinned::Pinned;
 use super::state::{Document, Plot, SheetTab};
 use super::studies::Owner;
 use super::{Command, Tautline, canvas, fields, number, view_link};
@@ -20,11 +21,11 @@ impl Tautline {
                 let original = self.present.document.original.clone();
                 self.edit(Document { scenario: *scenario, original });
             }
-            Command::Load(scenario) => self.open(*scenario),
+            Command::Load(scenario) => self.open(Document::opened(*scenario)),
             Command::Read(text) if files::is_table(&text) => self.take_cables(&text),
             Command::Read(text) => match files::scenario(&text) {
                 Ok(scenario) => {
-                    self.open(scenario);
+                    self.open(Document::opened(scenario));
                     if let Some(view) = view_link::part(&text) {
                         view_link::apply(view, &mut self.state, &mut self.session);
                     }
@@ -63,8 +64,12 @@ impl Tautline {
                     self.edit(after);
                 }
             }
-            Command::Reset => self.open(self.present.document.original.clone()),
-            Command::Pin(on) => self.pin(on),
+            Command::Reset => self.open(Document::opened(self.present.document.original.clone())),
+            Command::Design(action) => self.design(action),
+            Command::CopyDesigns => {
+                let text = export::designs(self.facts()).tsv();
+                self.files.copy(context, Clip { what: "The table of designs", text, more: ".".into() });
+            }
             Command::Open => self.files.open(context),
             Command::Save(content) => self.save_content(context, content),
             Command::CopyModes => match export::plot(Plot::Modes, self.facts()) {
@@ -119,18 +124,33 @@ impl Tautline {
         self.files.copy(context, Clip { what: "The link", text: link, more });
     }
 
-    /// Keeps the present design to compare with, or lets the one kept go.
-    fn pin(&mut self, on: bool) {
-        self.unpin();
-        let wake = self.context.clone();
-        let present = &self.present;
-        let design =
-            || Pinned::new(present.document.scenario.clone(), &present.answers, move || wake.request_repaint());
-        match on.then(design).transpose() {
-            Ok(pinned) => {
-                self.present.pinned = pinned;
-                self.notices.succeed(About::Action);
+    /// Does something with the designs that are kept.
+    fn design(&mut self, action: Action) {
+        let moved = match action {
+            Action::WorkOn(letter) | Action::Remove(letter) => [Some(letter), None],
+            Action::Exchange(one, other) => [Some(one), Some(other)],
+            _ => [None, None],
+        };
+        for letter in moved.into_iter().flatten() {
+            let orders = self.present.designs.rest(letter);
+            self.pool.carry_out(Owner::Kept(letter as usize), orders);
+        }
+        let Present { designs, document, answers, .. } = &mut self.present;
+        let mut done = Ok(());
+        match action {
+            Action::Keep => done = designs.keep(document.clone(), answers),
+            Action::WorkOn(letter) => {
+                if let Some(document) = designs.swap(letter, document.clone(), answers) {
+                    self.open(document);
+                }
             }
+            Action::Show(letter, shown) => designs.show(letter, shown),
+            Action::Rename(letter, name) => designs.rename(letter, name),
+            Action::Exchange(one, other) => designs.exchange(one, other),
+            Action::Remove(letter) => designs.remove(letter),
+        }
+        match done {
+            Ok(()) => self.notices.succeed(About::Action),
             Err(reason) => self.complain(reason),
         }
     }
@@ -167,21 +187,15 @@ impl Tautline {
         format!("{}{}{robot}{view}", address(), link::MARK)
     }
 
-    /// Lets the pinned design go, with whatever is being computed for it.
-    pub(super) fn unpin(&mut self) {
-        let orders = self.present.pinned.take().map(Pinned::release);
-        self.pool.carry_out(Owner::Pinned, orders.into_iter().flatten());
-    }
-
     pub(super) fn complain(&mut self, text: String) {
         self.notices.complain(About::Action, text);
     }
 
-    /// Starts from a scenario, as a step of its own.
-    fn open(&mut self, scenario: Scenario) {
+    /// Starts from a document, as a step of its own.
+    fn open(&mut self, document: Document) {
         self.history.step(&self.present.document);
         self.present.answers.begin(self.engine.revision + 1);
-        self.edit(Document::opened(scenario));
+        self.edit(document);
         self.history.step(&self.present.document);
     }
 
@@ -209,6 +223,7 @@ impl Tautline {
             return;
         }
         self.notices.succeed(About::Robot);
+        let document = document.called_rightly();
         let changed = document.scenario != self.present.document.scenario;
         self.present.document = document;
         if changed {

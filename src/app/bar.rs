@@ -2,15 +2,17 @@
 
 use eframe::egui::{
     Align, Atom, Button, Color32, KeyboardShortcut, Layout, Popup, PopupCloseBehavior, Rect, Response, RichText, Role,
-    Sense, TextEdit, Ui, UiBuilder, Vec2, WidgetInfo, WidgetText,
+    Sense, Ui, UiBuilder, Vec2, WidgetInfo, WidgetText,
 };
 
 use crate::app::arrangement::Form;
 use crate::app::command::Command;
+use crate::app::designs::Action;
 use crate::app::export::Content;
 use crate::app::facts::Facts;
 use crate::app::icons::{self, Icon, IconButton};
 use crate::app::meaning::Explain as _;
+use crate::app::name;
 use crate::app::panels::answer;
 use crate::app::shortcuts::{OPEN, REDO, SAVE};
 use crate::app::state::{Camera, Document, Plot, Session, UiState};
@@ -20,7 +22,6 @@ use crate::scenario::presets;
 
 /// What can be done, as far as it depends on more than the interface's state.
 #[derive(Clone, Copy, Debug)]
-#[expect(clippy::struct_excessive_bools)] // One for each entry that may be grey.
 pub struct Possible {
     /// There is a step to undo.
     pub undo: bool,
@@ -28,12 +29,7 @@ pub struct Possible {
     pub redo: bool,
     /// A value differs from what it was when the scenario was opened.
     pub reset: bool,
-    /// A design is pinned.
-    pub unpin: bool,
 }
-
-/// Longer names are not kept.
-const LONGEST_NAME: usize = 200;
 
 /// Draws the bar in `rect`. Gives where the answer is in it, if it is there.
 pub fn ui(
@@ -75,7 +71,7 @@ pub fn ui(
         if words {
             let button = IconButton::new(Icon::Share, "Share").text(text("Share")).height(height).show(ui);
             share(&button.explained("A link to this robot as you see it"), commands);
-            pin(ui, height, possible, commands);
+            designs(&mut session.windows.designs, ui, height, commands);
         }
         let button = IconButton::new(Icon::Map, "Map").text(text("Map")).height(height).selected(state.map.on);
         let meaning = "Colours the workspace under the robot, point by point. A click on it moves the platform. (M)";
@@ -140,14 +136,17 @@ fn step(ui: &mut Ui, icon: Icon, name: &str, height: f32, can: bool, command: Co
     }
 }
 
-fn pin(ui: &mut Ui, height: f32, possible: Possible, commands: &mut Vec<Command>) {
-    let (name, text) = if possible.unpin {
-        ("Unpin", "Lets the pinned design go")
-    } else {
-        ("Pin", "Keeps this design: all answers and plots then show the difference to it")
-    };
-    if IconButton::new(Icon::Pin, name).text(name).height(height).show(ui).explained(text).clicked() {
-        commands.push(Command::Pin(!possible.unpin));
+/// What keeps the present design, and what opens the window of all that are kept.
+fn designs(open: &mut bool, ui: &mut Ui, height: f32, commands: &mut Vec<Command>) {
+    // From the right to the left.
+    let button = IconButton::new(Icon::ChevronDown, "Designs").height(height).selected(*open).show(ui);
+    if button.explained("The designs that are kept, and what differs between them").clicked() {
+        *open = !*open;
+    }
+    let meaning = "Keeps this design as A to D: answers and plots then show the difference to it";
+    let button = IconButton::new(Icon::Pin, "Keep").text("Keep").height(height).show(ui);
+    if button.explained(meaning).clicked() {
+        commands.push(Command::Design(Action::Keep));
     }
 }
 
@@ -187,7 +186,7 @@ fn share(button: &Response, commands: &mut Vec<Command>) {
 
 /// The robot's name; a click opens what can be done with the robot as a whole.
 fn robot(ui: &mut Ui, height: f32, most: f32, possible: Possible, document: &Document, commands: &mut Vec<Command>) {
-    let name = document.scenario.name.as_deref().filter(|name| !name.trim().is_empty()).unwrap_or("Unnamed robot");
+    let name = name::shown(document.scenario.name.as_deref());
     let tokens = theme::tokens(ui.visuals());
     let room = (ui.available_width() - 28.0).clamp(40.0, most);
     let text = RichText::new(name).size(theme::TITLE);
@@ -231,26 +230,11 @@ fn robot(ui: &mut Ui, height: f32, most: f32, possible: Possible, document: &Doc
     });
 }
 
-/// The field with the robot's name. What is typed counts when the field is left.
+/// The field with the robot's name.
 fn rename(ui: &mut Ui, document: &Document, commands: &mut Vec<Command>) {
-    let id = ui.make_persistent_id("name");
-    let now = document.scenario.name.clone().unwrap_or_default();
-    let mut text = ui.data(|data| data.get_temp::<String>(id)).unwrap_or_else(|| now.clone());
-    let field = ui.add(TextEdit::singleline(&mut text).hint_text("Name").char_limit(LONGEST_NAME).desired_width(254.0));
-    field.widget_info(|| WidgetInfo {
-        label: Some("Robot's name".into()),
-        current_text_value: Some(text.clone()),
-        ..WidgetInfo::new(Role::TextInput)
-    });
-    if field.has_focus() {
-        ui.data_mut(|data| data.insert_temp(id, text.clone()));
-    }
-    if field.lost_focus() {
-        ui.data_mut(|data| data.remove::<String>(id));
-        if text != now {
-            let name = (!text.trim().is_empty()).then(|| text.trim().to_owned());
-            commands.push(Command::Edit(Box::new(crate::scenario::Scenario { name, ..document.scenario.clone() })));
-        }
+    if let Some(name) = name::field(ui, "Robot's name", document.scenario.name.as_deref(), 254.0) {
+        let name = Some(name).filter(|name| !name.is_empty());
+        commands.push(Command::Edit(Box::new(crate::scenario::Scenario { name, ..document.scenario.clone() })));
     }
 }
 
@@ -277,9 +261,11 @@ fn more(
                 if entry(ui, "Copy embed code", None, true) {
                     commands.push(Command::Embed);
                 }
-                let (name, pinned) = if possible.unpin { ("Unpin", false) } else { ("Pin", true) };
-                if entry(ui, name, None, true) {
-                    commands.push(Command::Pin(pinned));
+                if entry(ui, "Keep this design", None, true) {
+                    commands.push(Command::Design(Action::Keep));
+                }
+                if entry(ui, "Designs", None, true) {
+                    session.windows.designs = true;
                 }
                 if entry(ui, "Redo", Some(REDO), possible.redo) {
                     commands.push(Command::Redo);

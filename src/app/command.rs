@@ -1,5 +1,6 @@
 //! What panels ask for, carried out between two frames.
 
+use crate::app::designs::Action;
 use crate::app::export::Content;
 use crate::app::words::Word;
 use crate::compute::protocol::{ModeChoice, Topic};
@@ -24,8 +25,10 @@ pub enum Command {
     Share,
     /// Put the lines on the clipboard that show the page as a frame in another one.
     Embed,
-    /// Keep the present design to compare with, or let the one kept go.
-    Pin(bool),
+    /// Do something with the designs that are kept.
+    Design(Action),
+    /// Put the table of what differs between the designs on the clipboard.
+    CopyDesigns,
     /// Choose a scenario file and start from it.
     Open,
     /// Write something down in a file.
@@ -69,6 +72,6 @@ pub enum Command {
 impl Command {
     /// Whether it puts something on the clipboard or reads it.
     pub fn uses_clipboard(&self) -> bool {
-        matches!(self, Self::Share | Self::Embed | Self::CopyModes | Self::CopyCables | Self::Paste)
+        matches!(self, Self::Share | Self::Embed | Self::CopyModes | Self::CopyCables | Self::CopyDesigns | Self::Paste)
     }
 }

@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use eframe::egui::Rect;
 use serde_json::Value;
 
+use crate::app::comparison::Comparison;
 use crate::app::facts::Facts;
 use crate::app::series::{self, degrees};
 use crate::app::state::Plot;
@@ -122,6 +123,16 @@ pub fn suffix(plot: Plot) -> &'static str {
 /// The numbers of the map, where there are any.
 pub fn map(facts: Facts<'_>) -> Option<Table> {
     facts.studies.shown(Topic::Map).and_then(|shown| places(shown.known))
+}
+
+/// What differs between the designs, in the units of the screen.
+pub fn designs(facts: Facts<'_>) -> Table {
+    let Comparison { columns, answers, differences } = Comparison::of(facts);
+    let mut table = Table::new(&[""]);
+    table.header.extend(columns.into_iter().map(ToOwned::to_owned));
+    let rows = answers.into_iter().chain(differences);
+    table.rows = rows.map(|row| std::iter::once(row.name).chain(row.cells).collect()).collect();
+    table
 }
 
 /// The table of modes.

@@ -2,7 +2,7 @@
 
 use crate::app::answers::Answers;
 use crate::app::certainty::Certainty;
-use crate::app::pinned::Pinned;
+use crate::app::designs::Designs;
 use crate::app::settings::Settings;
 use crate::app::state::Document;
 use crate::app::studies::{Joined, Studies};
@@ -18,16 +18,16 @@ pub struct Present {
     pub studies: Studies,
     /// The modes of the Campbell diagram.
     pub joined: Joined,
-    /// The design to compare with.
-    pub pinned: Option<Pinned>,
+    /// The designs to compare with.
+    pub designs: Designs,
 }
 
 impl Present {
     /// What panels read, in these units and with the mode that is chosen.
     pub fn facts(&self, settings: Settings, mode: ModeChoice) -> Facts<'_> {
-        let Self { document, answers, studies, joined, pinned } = self;
+        let Self { document, answers, studies, joined, designs } = self;
         let certainty = Certainty::known(&document.scenario, answers, studies);
-        Facts { document, answers, studies, joined, pinned: pinned.as_ref(), certainty, settings, mode }
+        Facts { document, answers, studies, joined, designs, certainty, settings, mode }
     }
 }
 
@@ -42,8 +42,8 @@ pub struct Facts<'a> {
     pub studies: &'a Studies,
     /// The modes of the Campbell diagram.
     pub joined: &'a Joined,
-    /// The design to compare with.
-    pub pinned: Option<&'a Pinned>,
+    /// The designs to compare with.
+    pub designs: &'a Designs,
     /// How far the critical speed on show can be trusted.
     pub certainty: Certainty,
     /// Units.

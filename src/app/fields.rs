@@ -42,6 +42,12 @@ impl Field {
         Unit::of(self.unit)
     }
 
+    /// What it is called where it stands alone: its name and letter, or its letter and the cable that it belongs to.
+    pub fn full_name(&self) -> String {
+        let title = self.title();
+        if title == self.symbol && self.name != self.symbol { format!("{} {title}", self.name) } else { title }
+    }
+
     /// What messages call it: its letter, with the cable that it belongs to.
     pub fn title(&self) -> String {
         match self.parameter {

@@ -224,7 +224,6 @@ impl Tautline {
             undo: self.history.can_undo(&self.present.document),
             redo: self.history.can_redo(&self.present.document),
             reset: self.present.document.scenario != self.present.document.original,
-            unpin: self.present.pinned.is_some(),
         };
         let facts = self.present.facts(self.state.settings, self.session.mode);
         let Self { screen, state, session, commands, .. } = self;

@@ -75,11 +75,13 @@ pub fn details(facts: Facts<'_>) -> Vec<String> {
     {
         lines.push(format!("Of the critical speed: {note}."));
     }
-    if let CriticalState::Current(_) = facts.answers.critical()
-        && let Some(difference) = facts.pinned.and_then(|pinned| pinned.difference(facts.answers))
-    {
-        let difference = digits::change_like(difference, facts.share());
-        lines.push(format!("Against the pinned design: {difference} metres per second."));
+    if let CriticalState::Current(_) = facts.answers.critical() {
+        for (letter, design) in facts.designs.shown() {
+            if let Some(difference) = design.difference(facts.answers) {
+                let difference = digits::change_like(difference, facts.share());
+                lines.push(format!("Against design {}: {difference} metres per second.", letter.name()));
+            }
+        }
     }
     lines
 }

@@ -13,6 +13,8 @@ mod bar;
 mod canvas;
 mod certainty;
 mod command;
+mod comparison;
+mod designs;
 mod digits;
 mod engine;
 mod export;
@@ -27,13 +29,13 @@ mod layout;
 mod meaning;
 #[cfg(target_arch = "wasm32")]
 mod mirror;
+mod name;
 mod notices;
 mod number;
 #[cfg(target_arch = "wasm32")]
 mod page;
 mod panels;
 mod persist;
-mod pinned;
 mod regions;
 mod round;
 mod screen;
@@ -60,13 +62,13 @@ use eframe::egui::{self, Event, Ui};
 
 use answers::{Answers, CriticalState};
 use command::Command;
+use designs::Designs;
 use engine::Engine;
 use facts::Present;
 use files::Files;
 use history::History;
 use notices::{About, Notices};
 use persist::{Keeper, Keeping, Kept};
-use pinned::Pinned;
 use screen::Screen;
 use state::{Document, Session, UiState};
 use studies::{Joined, Owner, SharedPool, Studies};
@@ -173,7 +175,7 @@ impl Tautline {
                 answers: Answers::default(),
                 studies: Studies::default(),
                 joined: Joined::default(),
-                pinned: None,
+                designs: if start.embedded { Designs::default() } else { persist::designs(&storages) },
             },
             history,
             state,
@@ -235,12 +237,13 @@ impl Tautline {
         (progress.done, progress.total, progress.stage == studies::StudyStage::Finished)
     }
 
-    /// The pinned design, and whether all is known of its pose.
-    pub fn pinned(&self) -> Option<(&Scenario, bool)> {
-        self.present.pinned.as_ref().map(|pinned| (&pinned.scenario, pinned.is_complete()))
+    /// The designs that are kept, each with its letter and whether all is known of its pose.
+    pub fn designs(&self) -> Vec<(&'static str, &Scenario, bool)> {
+        let all = self.present.designs.all();
+        all.map(|(letter, design)| (letter.name(), &design.document.scenario, design.is_complete())).collect()
     }
 
-    /// The topics that have a study at work, for the present design or the pinned one.
+    /// The topics that have a study at work, for the present design or a kept one.
     pub fn at_work(&self) -> Vec<Topic> {
         Topic::ALL.into_iter().filter(|topic| self.pool.is_at_work(*topic)).collect()
     }
@@ -281,9 +284,10 @@ impl Tautline {
         let requests = studies::wanted(&self.present.document.scenario, &self.state, plots, critical, at_rest);
         let orders = self.present.studies.want(requests);
         let idle = !self.present.studies.is_working();
-        // The pool has one study of each topic: the pinned design's go first, to make room for the present one's.
-        let for_pinned = self.present.pinned.as_mut().map(|pinned| pinned.want(idle, &self.state, plots));
-        self.pool.carry_out(Owner::Pinned, for_pinned.into_iter().flatten());
+        // The pool has one study of each topic: the kept designs' go first, to make room for the present one's.
+        for (letter, orders) in self.present.designs.want(idle, &self.state, plots) {
+            self.pool.carry_out(Owner::Kept(letter as usize), orders);
+        }
         self.pool.carry_out(Owner::Present, orders);
         let diagram =
             plots.contains(&state::Plot::Campbell).then(|| self.present.studies.shown(Topic::Campbell)).flatten();
@@ -298,11 +302,11 @@ impl Tautline {
                     self.present.joined.take(&news);
                     self.present.studies.take(news);
                 }
-                Owner::Pinned => self.present.pinned.iter_mut().for_each(|pinned| pinned.take(news.clone())),
+                Owner::Kept(place) => self.present.designs.take(place, news),
             }
         }
-        if let Some(Err(reason)) = self.present.pinned.as_mut().map(Pinned::go_on) {
-            self.unpin();
+        let wake = self.context.clone();
+        if let Err(reason) = self.present.designs.go_on(move || wake.request_repaint()) {
             self.complain(reason);
         }
     }
@@ -420,14 +424,14 @@ impl eframe::App for Tautline {
         }
         self.history.watch(context, &self.present.document);
         self.take_replies();
-        let pinning = self.present.pinned.as_ref().is_some_and(|pinned| !pinned.is_complete());
-        if self.present.answers.are_awaited() || pinning || self.screen.windows.validation.is_waiting() {
+        let awaited = self.present.answers.are_awaited() || self.present.designs.are_awaited();
+        if awaited || self.screen.windows.validation.is_waiting() {
             context.request_repaint_after(ENGINE_HEARTBEAT);
         }
         self.study_on();
         self.keep(context, frame);
         let working = self.present.studies.is_working() || self.present.joined.is_working();
-        if working || self.present.pinned.as_ref().is_some_and(Pinned::is_working) {
+        if working || self.present.designs.are_studied() {
             context.request_repaint_after(HEARTBEAT);
         }
         self.animate(context);
@@ -455,8 +459,9 @@ impl eframe::App for Tautline {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.notice_bar(ui);
         self.screen(ui);
-        let Self { screen, session, state, commands, .. } = self;
-        windows::ui(&mut screen.windows, &mut session.windows, &mut state.settings, ui.ctx(), commands);
+        let Self { screen, session, state, commands, present, .. } = self;
+        let facts = present.facts(state.settings, session.mode);
+        windows::ui(&mut screen.windows, &mut session.windows, &mut state.settings, ui.ctx(), facts, commands);
         files::announce_drop(ui.ctx());
         words::ui(&mut self.session.word, ui.ctx());
         let facts = self.present.facts(self.state.settings, self.session.mode);
@@ -475,7 +480,9 @@ impl eframe::App for Tautline {
         if self.session.embedded {
             return;
         }
-        persist::keep_state(&mut persist::storages(&mut self.kept.own, Some(storage)), &self.state);
+        let mut storages = persist::storages(&mut self.kept.own, Some(storage));
+        persist::keep_state(&mut storages, &self.state);
+        persist::keep_designs(&mut storages, &self.present.designs);
     }
 
     fn auto_save_interval(&self) -> Duration {

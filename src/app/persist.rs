@@ -1,16 +1,21 @@
-//! What survives a restart: the scenario on show, what its values reset to, and the settings.
+//! What survives a restart: the scenario on show, what its values reset to, the designs that are kept, and the settings.
 
 use std::time::Duration;
 
 use eframe::Storage;
 use web_time::Instant;
 
+use crate::app::designs::{Designs, Letter};
 use crate::app::state::{Document, UiState};
 use crate::scenario::Scenario;
 
 const SCENARIO: &str = "tautline-scenario";
 const ORIGINAL: &str = "tautline-original";
 const STATE: &str = "tautline-state";
+const DESIGNS: &str = "tautline-designs";
+/// Whether a design is on show, as it is written down.
+const SHOWN: &str = "shown";
+const HIDDEN: &str = "hidden";
 /// While it changes, the scenario is written this often. A browser takes it without a file.
 const PAUSE: Duration = Duration::from_millis(if cfg!(target_arch = "wasm32") { 100 } else { 500 });
 
@@ -53,6 +58,35 @@ pub fn keep_state(storages: &mut [&mut dyn Storage], state: &UiState) {
     if let Ok(text) = serde_json::to_string(state) {
         for storage in storages {
             storage.set_string(STATE, text.clone());
+        }
+    }
+}
+
+/// The designs that were kept. One that cannot be read is left out.
+pub fn designs(storages: &[&dyn Storage]) -> Designs {
+    let mut designs = Designs::default();
+    let text = storages.iter().find_map(|storage| storage.get_string(DESIGNS)).unwrap_or_default();
+    let written: Vec<[String; 4]> = serde_json::from_str(&text).unwrap_or_default();
+    for [name, scenario, original, shown] in &written {
+        let letter = Letter::ALL.into_iter().find(|letter| letter.name() == name);
+        if let (Some(letter), Ok(scenario)) = (letter, Scenario::from_json(scenario)) {
+            let original = Scenario::from_json(original).unwrap_or_else(|_| scenario.clone());
+            designs.restore(letter, Document { scenario, original }, shown != HIDDEN);
+        }
+    }
+    designs
+}
+
+/// Writes down which designs are kept: of each its letter, scenario and original, and whether it is on show.
+pub fn keep_designs(storages: &mut [&mut dyn Storage], designs: &Designs) {
+    let written = designs.all().map(|(letter, design)| {
+        let Document { scenario, original } = &design.document;
+        let shown = if design.shown { SHOWN } else { HIDDEN };
+        [letter.name().to_owned(), scenario.to_json(), original.to_json(), shown.to_owned()]
+    });
+    if let Ok(text) = serde_json::to_string(&written.collect::<Vec<_>>()) {
+        for storage in storages {
+            storage.set_string(DESIGNS, text.clone());
         }
     }
 }
@@ -172,6 +206,30 @@ mod tests {
         keep_state(&mut [&mut storage], &looked);
         let back = state(&[&storage]).expect("a state");
         assert_eq!((back.plot, back.campbell_hz, back.settings), (looked.plot, 7.5, looked.settings));
+    }
+
+    #[test]
+    fn kept_designs_come_back_with_letter_name_and_original() {
+        let mut storage = Memory::default();
+        assert_eq!(designs(&[&storage]).all().count(), 0);
+        let mut kept = Designs::default();
+        let mut document = Document::opened(presets::PRESETS[1].scenario());
+        document.scenario.name = Some("Heavier \"B\", 重".into());
+        document.scenario.platform.mass = 0.1 + 0.2;
+        kept.restore(Letter::B, document.clone(), true);
+        kept.restore(Letter::D, Document::opened(presets::PRESETS[0].scenario()), false);
+        keep_designs(&mut [&mut storage], &kept);
+        let back = designs(&[&storage]);
+        let shown: Vec<_> = back.all().map(|(letter, design)| (letter, design.shown)).collect();
+        assert_eq!(shown, [(Letter::B, true), (Letter::D, false)]);
+        assert_eq!(back.get(Letter::B).map(|design| &design.document), Some(&document));
+        // Nothing that is written there keeps the app from starting.
+        for text in ["no JSON", "[[\"A\"]]", "[[\"A\",\"{}\",\"\",\"\"]]", "[[\"Z\",\"\",\"\",\"\"]]"] {
+            storage.set_string(DESIGNS, text.into());
+            assert_eq!(designs(&[&storage]).all().count(), 0, "{text}");
+        }
+        keep_designs(&mut [&mut storage], &Designs::default());
+        assert_eq!(designs(&[&storage]).all().count(), 0, "all were removed");
     }
 
     /// Takes nothing while it is full.

@@ -11,6 +11,9 @@ use crate::app::words::Word;
 use crate::compute::protocol::{ModeChoice, Which};
 use crate::scenario::{Parameter, Scenario};
 
+/// Stands behind the name of a robot that differs from the one of that name.
+const CHANGED: &str = ", changed";
+
 /// What the user edits, with undo. Everything else on the screen follows from it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Document {
@@ -24,6 +27,24 @@ impl Document {
     /// A scenario as it has just been opened.
     pub fn opened(scenario: Scenario) -> Self {
         Self { original: scenario.clone(), scenario }
+    }
+
+    /// The same, where a robot that has been changed does not go by the name of the one that was opened, and one that is
+    /// again as it was opened does. A name that somebody has given it stays. Where the robot stands and how it moves is no
+    /// change of the robot.
+    pub fn called_rightly(mut self) -> Self {
+        let Some(opened) = self.original.name.as_deref().filter(|name| !name.trim().is_empty()) else { return self };
+        let changed = if opened.ends_with(CHANGED) { opened.to_owned() } else { format!("{opened}{CHANGED}") };
+        let Some(name) = self.scenario.name.as_deref().filter(|name| *name == opened || *name == changed) else {
+            return self;
+        };
+        let motion = self.scenario.motion;
+        let as_opened = Scenario { name: self.scenario.name.clone(), motion, ..self.original.clone() } == self.scenario;
+        let right = if as_opened { opened } else { changed.as_str() };
+        if name != right {
+            self.scenario.name = Some(right.to_owned());
+        }
+        self
     }
 }
 
@@ -322,6 +343,8 @@ pub struct Windows {
     pub theory: bool,
     /// The checks of theory, computed anew.
     pub validation: bool,
+    /// The designs that are kept, and what differs.
+    pub designs: bool,
 }
 
 impl Default for UiState {
@@ -414,6 +437,39 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenario::presets;
+
+    #[test]
+    fn a_changed_robot_does_not_go_by_the_name_of_the_one_that_was_opened() {
+        let opened = || Document::opened(presets::PRESETS[0].scenario());
+        let name = |document: Document| document.called_rightly().scenario.name.expect("a name");
+        assert_eq!(name(opened()), "Paper robot");
+        // Its pose and motion are not the robot.
+        let mut moved = opened();
+        moved.scenario.motion.position = [1.0, 0.5];
+        moved.scenario.motion.speed = 1.0;
+        assert_eq!(name(moved), "Paper robot");
+        let mut changed = opened();
+        changed.scenario.platform.mass = 3.0;
+        let mut changed = changed.called_rightly();
+        assert_eq!(name(changed.clone()), "Paper robot, changed");
+        // As it was again.
+        changed.scenario.platform.mass = changed.original.platform.mass;
+        assert_eq!(name(changed.clone()), "Paper robot");
+        // What somebody has typed stays as it is typed.
+        changed.scenario.name = Some("Mine".into());
+        assert_eq!(name(changed.clone()), "Mine");
+        changed.scenario.platform.mass = 4.0;
+        assert_eq!(name(changed.clone()), "Mine");
+        // One that was opened as a changed one says it once.
+        changed.scenario.name = Some("Paper robot, changed".into());
+        let mut again = Document::opened(changed.scenario);
+        again.scenario.platform.mass = 5.0;
+        assert_eq!(name(again.clone()), "Paper robot, changed");
+        again.original.name = None;
+        again.scenario.name = None;
+        assert_eq!(again.called_rightly().scenario.name, None);
+    }
 
     #[test]
     fn every_plot_is_in_its_group() {

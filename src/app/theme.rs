@@ -233,9 +233,21 @@ pub fn warning(visuals: &Visuals) -> Color32 {
     tokens(visuals).critical
 }
 
-/// What belongs to the pinned design.
-pub fn pinned(visuals: &Visuals) -> Color32 {
-    if visuals.dark_mode { Color32::from_rgb(215, 165, 225) } else { Color32::from_rgb(125, 55, 140) }
+/// What belongs to the kept designs, from the first to the last. Each has a letter and a kind of line as well.
+pub fn designs(visuals: &Visuals) -> &'static [Color32; 4] {
+    const LIGHT: [Color32; 4] = [
+        Color32::from_rgb(125, 55, 140),
+        Color32::from_rgb(110, 90, 0),
+        Color32::from_rgb(70, 85, 110),
+        Color32::from_rgb(150, 35, 95),
+    ];
+    const DARK: [Color32; 4] = [
+        Color32::from_rgb(215, 165, 225),
+        Color32::from_rgb(225, 205, 120),
+        Color32::from_rgb(170, 190, 215),
+        Color32::from_rgb(250, 160, 200),
+    ];
+    if visuals.dark_mode { &DARK } else { &LIGHT }
 }
 
 /// What is stable.
@@ -347,6 +359,12 @@ mod tests {
                 (tokens.critical, tokens.critical_fill),
             ] {
                 assert!(contrast(word, ground) >= 4.5, "{word:?} on {ground:?}: {}", contrast(word, ground));
+            }
+            let visuals = if std::ptr::eq(tokens, &raw const DARK) { Visuals::dark() } else { Visuals::light() };
+            for word in designs(&visuals) {
+                for ground in grounds {
+                    assert!(contrast(*word, ground) >= 4.5, "{word:?} on {ground:?}: {}", contrast(*word, ground));
+                }
             }
             // Data that is old is no word, but must be seen.
             assert!(grounds.iter().all(|ground| contrast(tokens.mute, *ground) >= 3.0));

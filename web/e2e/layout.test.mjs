@@ -8,7 +8,7 @@ const SIZES = [[320, 640], [360, 740], [768, 1024], [1024, 768], [1280, 720], [1
 /** What must be on the screen of a window, from this width on. */
 const EXPECTED = [
     { from: 0, to: 759, things: ["Undo", "Map", "More", "Move", "Robot", "Plots", "Explain"] },
-    { from: 760, to: 9999, things: ["Robot", "Undo", "Redo", "Map", "Pin", "Share", "More"] },
+    { from: 760, to: 9999, things: ["Robot", "Undo", "Redo", "Map", "Keep", "Designs", "Share", "More"] },
     { from: 1024, to: 9999, things: ["Controls", "Dock", "Present"] },
 ];
 const REGIONS = [

@@ -11,6 +11,7 @@ use eframe::egui::{
 use crate::app::answers::CriticalState;
 use crate::app::certainty::Certainty;
 use crate::app::command::Command;
+use crate::app::designs::{Design, Letter};
 use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::icons::{Icon, IconButton};
@@ -21,10 +22,10 @@ use crate::compute::protocol::{FailedPose, SearchEnd};
 use crate::scenario::Scenario;
 use crate::stability::{Critical, Instability};
 
-/// The card's width and height in points; a line more where a design is pinned.
+/// The card's width and height in points; a line more for each design that is compared.
 const CARD: Vec2 = Vec2::new(324.0, 152.0);
-/// The height of the line about the pinned design.
-const PINNED: f32 = 20.0;
+/// The height of the line about a kept design.
+const DESIGN: f32 = 20.0;
 
 /// What the criterion means; also the tooltip of the figure.
 const FROZEN_TIME: &str = "The critical speed of this method is where an eigenvalue of the robot, frozen at this moment \
@@ -107,7 +108,7 @@ fn undecided(facts: Facts<'_>) -> bool {
 
 /// The size of the card.
 pub fn size(facts: Facts<'_>) -> Vec2 {
-    CARD + Vec2::new(0.0, if facts.pinned.is_some() { PINNED } else { 0.0 })
+    CARD + facts.designs.shown().map(|_| Vec2::new(0.0, DESIGN)).fold(Vec2::ZERO, std::ops::Add::add)
 }
 
 /// Draws the card with its upper left corner at `corner`. Gives where it is.
@@ -178,7 +179,7 @@ fn body(ui: &mut Ui, facts: Facts<'_>, form: Form, commands: &mut Vec<Command>) 
             ui.label(recomputing(searched_up_to));
         }
     }
-    difference(ui, facts);
+    differences(ui, facts);
 }
 
 fn title(ui: &mut Ui, text: &str) {
@@ -532,22 +533,28 @@ pub fn at_rest(critical: &Critical, scenario: &Scenario) -> Option<&'static str>
     })
 }
 
-/// The pinned design's critical speed, and how far the present one is from it.
-fn difference(ui: &mut Ui, facts: Facts<'_>) {
-    let Some(pinned) = facts.pinned else { return };
+/// A line for each kept design that is shown.
+fn differences(ui: &mut Ui, facts: Facts<'_>) {
+    for (letter, design) in facts.designs.shown() {
+        let text = RichText::new(against(letter, design, facts)).color(letter.colour(ui.visuals()));
+        ui.add(Label::new(text).truncate());
+    }
+}
+
+/// A kept design's critical speed, and how far the present one is from it.
+pub fn against(letter: Letter, design: &Design, facts: Facts<'_>) -> String {
     let answer = match facts.answers.critical() {
         CriticalState::Current(answer) => Some(answer),
         _ => None,
     };
     let now = answer.and_then(|answer| answer.critical.as_ref());
     let not_known = |answer: Option<&SearchEnd>| answer.is_some_and(|answer| answer.failure.is_some());
-    let text = |critical: &Critical, certainty: Certainty| digits::certain(critical.speed, certainty.speed());
-    let text = match (pinned.critical(), now) {
-        _ if !pinned.is_complete() => "Pinned, being computed".into(),
-        (Some(before), None) if not_known(answer) => {
-            format!("Pinned: {} m/s. Now not known", text(before, pinned.certainty()))
-        }
-        (None, _) if not_known(pinned.search()) => "Pinned: not known".into(),
+    let of_design = |critical: &Critical| digits::certain(critical.speed, design.certainty().speed());
+    let text = match (design.critical(), now) {
+        _ if !design.is_complete() => "being computed".into(),
+        _ if design.answers().pose_failed() => "no equilibrium".into(),
+        (Some(before), None) if not_known(answer) => format!("{} m/s. Now not known", of_design(before)),
+        (None, _) if not_known(design.search()) => "not known".into(),
         (Some(before), Some(now)) => {
             let (hertz, unit) = facts.settings.hertz();
             let frequency = (now.frequency_hz() - before.frequency_hz()) * hertz;
@@ -561,14 +568,13 @@ fn difference(ui: &mut Ui, facts: Facts<'_>) {
             } else {
                 String::new()
             };
-            format!("Pinned: {} m/s. Now {speed} m/s{part}, {frequency} {unit}", text(before, pinned.certainty()))
+            format!("{} m/s. Now {speed} m/s{part}, {frequency} {unit}", of_design(before))
         }
-        (Some(before), None) => format!("Pinned: {} m/s. Now none", text(before, pinned.certainty())),
-        (None, Some(_)) => "Pinned: no critical speed found".into(),
-        (None, None) => "Pinned: none found either".into(),
+        (Some(before), None) => format!("{} m/s. Now none", of_design(before)),
+        (None, Some(_)) => "no critical speed found".into(),
+        (None, None) => "none found either".into(),
     };
-    let text = RichText::new(text).color(theme::pinned(ui.visuals()));
-    ui.add(Label::new(text).truncate());
+    format!("{}: {text}", letter.name())
 }
 
 #[cfg(test)]

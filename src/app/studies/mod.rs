@@ -11,7 +11,7 @@ mod varied;
 
 pub use joined::Joined;
 pub use request::{StudyRequest, wanted};
-pub use shared::{Owner, SharedPool};
+pub use shared::{KEPT, Owner, SharedPool};
 
 use std::collections::VecDeque;
 

@@ -6,13 +6,16 @@ use super::Order;
 use crate::compute::Pool;
 use crate::compute::protocol::{StudyNews, Topic};
 
+/// How many designs are kept at most.
+pub const KEPT: usize = 4;
+
 /// Whose study it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Owner {
     /// The design that is edited.
     Present,
-    /// The design to compare with.
-    Pinned,
+    /// A design that is kept, by its place among them.
+    Kept(usize),
 }
 
 /// The pool with the owners of its studies. It has one study of each topic, whichever design wants it.
@@ -49,7 +52,7 @@ impl Owners {
             StudyNews::Places { topic, .. } | StudyNews::Finished { topic, .. } | StudyNews::Refused { topic, .. } => {
                 self.0.get(topic).copied().into_iter().collect()
             }
-            StudyNews::Broken(_) => vec![Owner::Present, Owner::Pinned],
+            StudyNews::Broken(_) => std::iter::once(Owner::Present).chain((0..KEPT).map(Owner::Kept)).collect(),
         }
     }
 }
@@ -107,10 +110,15 @@ mod tests {
         assert!(owners.of(&news).is_empty());
         assert!(owners.note(Owner::Present, &Order::Want(job.clone())));
         assert_eq!(owners.of(&news), [Owner::Present]);
-        assert!(!owners.note(Owner::Pinned, &Order::Cancel(Topic::Directions)), "the study of another owner");
-        assert!(owners.note(Owner::Pinned, &Order::Want(job)));
-        assert_eq!(owners.of(&news), [Owner::Pinned]);
-        assert!(owners.note(Owner::Pinned, &Order::Cancel(Topic::Directions)) && owners.of(&news).is_empty());
-        assert_eq!(owners.of(&StudyNews::Broken("none".into())), [Owner::Present, Owner::Pinned]);
+        assert!(!owners.note(Owner::Kept(0), &Order::Cancel(Topic::Directions)), "the study of another owner");
+        assert!(owners.note(Owner::Kept(0), &Order::Want(job.clone())));
+        assert_eq!(owners.of(&news), [Owner::Kept(0)]);
+        // One kept design after the other.
+        assert!(owners.note(Owner::Kept(3), &Order::Want(job)));
+        assert!(!owners.note(Owner::Kept(0), &Order::Cancel(Topic::Directions)));
+        assert_eq!(owners.of(&news), [Owner::Kept(3)]);
+        assert!(owners.note(Owner::Kept(3), &Order::Cancel(Topic::Directions)) && owners.of(&news).is_empty());
+        let all = [Owner::Present, Owner::Kept(0), Owner::Kept(1), Owner::Kept(2), Owner::Kept(3)];
+        assert_eq!(owners.of(&StudyNews::Broken("none".into())), all);
     }
 }

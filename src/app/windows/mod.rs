@@ -1,5 +1,6 @@
 //! Windows over the page.
 
+mod designs;
 mod settings;
 mod shortcuts;
 mod theory;
@@ -8,6 +9,7 @@ mod validation;
 use eframe::egui::{Align2, Context, Id, LayerId, Order, ScrollArea, Ui, Window};
 
 use crate::app::command::Command;
+use crate::app::facts::Facts;
 use crate::app::settings::Settings;
 use crate::app::state::Windows;
 
@@ -33,6 +35,7 @@ pub fn ui(
     open: &mut Windows,
     settings: &mut Settings,
     context: &Context,
+    facts: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
     window(context, "Settings", 560.0, &mut open.settings, |ui| settings::ui(settings, ui));
@@ -41,6 +44,7 @@ pub fn ui(
     window(context, "Validation", 700.0, &mut open.validation, |ui| {
         validation::ui(&mut runtime.validation, ui, commands);
     });
+    window(context, "Designs", 620.0, &mut open.designs, |ui| designs::ui(ui, facts, commands));
     if !open.validation {
         // Whoever opens it again wants to see it done again.
         runtime.validation = validation::Run::default();
@@ -50,9 +54,14 @@ pub fn ui(
 /// Closes the window that is in front of all others, if one is open.
 pub fn close_foremost(open: &mut Windows, context: &Context) -> bool {
     let layers: Vec<LayerId> = context.memory(|memory| memory.layer_ids().collect());
-    let Windows { settings, shortcuts, theory, validation } = open;
-    let all =
-        [("Settings", settings), ("Keyboard shortcuts", shortcuts), ("Theory", theory), ("Validation", validation)];
+    let Windows { settings, shortcuts, theory, validation, designs } = open;
+    let all = [
+        ("Settings", settings),
+        ("Keyboard shortcuts", shortcuts),
+        ("Theory", theory),
+        ("Validation", validation),
+        ("Designs", designs),
+    ];
     let place = |title| layers.iter().position(|layer| *layer == LayerId::new(Order::Middle, id(title)));
     let foremost = all.into_iter().filter(|(_, open)| **open).max_by_key(|(title, _)| place(*title));
     foremost.map(|(_, open)| *open = false).is_some()

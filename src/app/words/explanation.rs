@@ -163,6 +163,7 @@ fn waves(facts: Facts<'_>) -> Option<String> {
 mod tests {
     use super::*;
     use crate::app::answers::Answers;
+    use crate::app::designs::Designs;
     use crate::app::facts::Present;
     use crate::app::settings::Settings;
     use crate::app::state::Document;
@@ -178,7 +179,7 @@ mod tests {
     fn told(scenario: &Scenario, answers: Answers) -> String {
         let document = Document::opened(scenario.clone());
         let (studies, joined) = (Studies::default(), Joined::default());
-        let present = Present { document, answers, studies, joined, pinned: None };
+        let present = Present { document, answers, studies, joined, designs: Designs::default() };
         paragraph(present.facts(Settings::default(), Session::default().mode))
     }
 

@@ -16,7 +16,6 @@ use crate::app::number::{self, Control, Unit};
 use crate::app::round::roundest;
 use crate::app::series::{self, Piece};
 use crate::app::studies::Shown;
-use crate::app::theme;
 use crate::compute::protocol::Topic;
 
 /// What the plot shows, in plain words.
@@ -126,7 +125,7 @@ impl Diagram<'_> {
         current: bool,
         commands: &mut Vec<Command>,
     ) {
-        let Facts { document, answers, joined, pinned, .. } = facts;
+        let Facts { document, answers, joined, designs, .. } = facts;
         let (pieces, growth) = (joined.pieces(), self.hertz.is_none());
         let response = ui.allocate_rect(self.rect, Sense::click_and_drag());
         let rect = inner(ui, self.rect, self.titles);
@@ -155,18 +154,18 @@ impl Diagram<'_> {
                 chart.curve(&points, Stroke::new(1.2, shade(tokens.stable)), Dash::Solid);
             }
         }
-        if let Some(pinned) = pinned {
-            let colour = theme::pinned(ui.visuals());
-            for (speed, eigenvalue) in pinned.study(Topic::Campbell).map(series::spectra).unwrap_or_default() {
+        for (letter, design) in designs.shown() {
+            let colour = letter.colour(ui.visuals());
+            for (speed, eigenvalue) in design.study(Topic::Campbell).map(series::spectra).unwrap_or_default() {
                 let at = chart.pos([speed, self.value(eigenvalue)]);
                 if rect.contains(at) {
                     chart.painter.circle_filled(at, 1.2, colour);
                 }
             }
-            if let Some(critical) = pinned.critical() {
-                chart.upright(critical.speed, Stroke::new(1.5, colour), Dash::Dashed);
+            if let Some(critical) = design.critical() {
+                chart.upright(critical.speed, Stroke::new(1.5, colour), Dash::Design(letter));
                 let spot = Pos2::new(chart.x.pos(critical.speed), rect.bottom() - 12.0);
-                chart.label("pinned", colour, &[spot]);
+                chart.label(letter.name(), colour, &[spot, spot - Vec2::new(0.0, 18.0)]);
             }
         }
         let critical = answers.last_critical().and_then(|answer| answer.critical.as_ref());

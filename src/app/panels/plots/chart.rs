@@ -7,6 +7,7 @@ use eframe::egui::{Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Shape, 
 
 use super::axis::Axis;
 use super::labels::{Labels, beside};
+use crate::app::designs::Letter;
 use crate::app::theme::{self, Tokens};
 
 /// Longer lines than this, in points, are not dashed: the dashes would be without number.
@@ -21,10 +22,12 @@ const PILL: Vec2 = Vec2::new(3.0, 1.0);
 pub enum Dash {
     /// Without gaps.
     Solid,
-    /// What is now, and what belongs to the pinned design.
+    /// What is now.
     Dashed,
     /// The wave limit.
     Dotted,
+    /// What belongs to a kept design.
+    Design(Letter),
 }
 
 /// What stands beside the axes.
@@ -280,7 +283,7 @@ pub enum Symbol {
     Ring,
     /// Unstable.
     Triangle,
-    /// Of the pinned design.
+    /// Of a kept design.
     Diamond,
 }
 
@@ -294,6 +297,15 @@ pub fn draw_line(painter: &Painter, points: Vec<Pos2>, stroke: Stroke, dash: Das
     let short = length < LONGEST_DASHED;
     match dash {
         Dash::Dashed if short => painter.extend(Shape::dashed_line(&points, stroke, 6.0, 4.0)),
+        Dash::Design(letter) if short => {
+            let (dashes, gaps): (&[f32], &[f32]) = match letter {
+                Letter::A => (&[6.0], &[4.0]),
+                Letter::B => (&[9.0, 2.0], &[3.0, 3.0]),
+                Letter::C => (&[15.0], &[4.0]),
+                Letter::D => (&[9.0, 2.0, 2.0], &[3.0, 3.0, 3.0]),
+            };
+            painter.extend(Shape::dashed_line_with_offset(&points, stroke, dashes, gaps, 0.0));
+        }
         Dash::Dotted if short => painter.extend(Shape::dashed_line(&points, stroke, 2.5, 3.0)),
         _ => {
             painter.line(points, stroke);

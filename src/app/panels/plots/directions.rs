@@ -18,7 +18,6 @@ use crate::app::meaning::Explain as _;
 use crate::app::round::round_step;
 use crate::app::series::{self, degrees};
 use crate::app::studies::{Shown, StudyResults};
-use crate::app::theme;
 use crate::compute::protocol::Topic;
 use crate::stability::Instability;
 use crate::study::Verdict;
@@ -140,9 +139,15 @@ impl Diagram<'_> {
         let curves = series::around(known);
         fan(&chart, &curves, shade(tokens.stable).gamma_multiply(0.09));
         rings(&mut chart, ui, step, count);
-        if let Some(before) = facts.pinned.and_then(|pinned| pinned.study(Topic::Directions)) {
-            for stretch in series::around(before) {
-                chart.curve(&stretch, Stroke::new(1.5, theme::pinned(ui.visuals())), Dash::Dashed);
+        for (letter, design) in facts.designs.shown() {
+            let Some(before) = design.study(Topic::Directions) else { continue };
+            let (colour, before) = (letter.colour(ui.visuals()), series::around(before));
+            for stretch in &before {
+                chart.curve(stretch, Stroke::new(1.5, colour), Dash::Design(letter));
+            }
+            if let Some(point) = before.first().and_then(|stretch| stretch.get(stretch.len() / 5)) {
+                let spot = chart.pos(*point);
+                chart.label(letter.name(), colour, &[spot]);
             }
         }
         for run in series::waves_around(known) {

@@ -12,10 +12,8 @@ use super::range::{self, VisibleRange};
 use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
-use crate::app::pinned::Pinned;
 use crate::app::series;
 use crate::app::settings::Settings;
-use crate::app::theme;
 use crate::compute::protocol::{AnalysedPose, ModeRow, Topic};
 use crate::stability::Critical;
 
@@ -83,7 +81,7 @@ fn plot(
     pose: &AnalysedPose,
     commands: &mut Vec<Command>,
 ) {
-    let Facts { answers, settings, pinned, mode: choice, .. } = facts;
+    let Facts { answers, settings, designs, mode: choice, .. } = facts;
     let grey = answers.pose_failed();
     let (hertz, unit) = settings.hertz();
     response.widget_info(|| WidgetInfo::labeled(Role::Image, true, told(&pose.modes, settings, grey)));
@@ -129,10 +127,18 @@ fn plot(
             }
         }
     }
-    if let Some(before) = pinned.and_then(Pinned::pose) {
-        let colour = theme::pinned(ui.visuals());
-        for mode in &before.modes {
+    for (letter, design) in designs.shown() {
+        let colour = letter.colour(ui.visuals());
+        let modes = design.pose().map(|pose| pose.modes.as_slice()).unwrap_or_default();
+        for mode in modes {
             chart.mark(chart.pos(point(mode.eigenvalue, hertz)), Symbol::Diamond, 4.0, colour);
+        }
+        // The fastest growing mode says whose they are.
+        if let Some(last) = modes.iter().max_by(|a, b| a.eigenvalue[0].total_cmp(&b.eigenvalue[0])) {
+            let at = chart.pos(point(last.eigenvalue, hertz));
+            if inner.contains(at) {
+                chart.label(letter.name(), colour, &[at]);
+            }
         }
     }
     let places: Vec<Pos2> = eigenvalues.iter().map(|&value| at_edge(&chart, point(value, hertz))).collect();

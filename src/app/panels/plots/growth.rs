@@ -8,7 +8,7 @@ use super::common::{self, PlotPlace};
 use super::range::{self, VisibleRange};
 use crate::app::digits;
 use crate::app::facts::Facts;
-use crate::app::{series, theme};
+use crate::app::series;
 
 /// What the plot shows, in plain words.
 pub const MEANING: &str = "At every speed there is one vibration that dies away most slowly, or grows fastest. This is its \
@@ -17,7 +17,7 @@ pub const MEANING: &str = "At every speed there is one vibration that dies away 
 
 /// Draws the plot.
 pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>) {
-    let Facts { document, answers, pinned, .. } = facts;
+    let Facts { document, answers, designs, .. } = facts;
     let Some((curve, current)) = answers.curve().filter(|(points, _)| !points.is_empty()) else {
         common::say(ui, "No growth rates at this pose.");
         return;
@@ -40,14 +40,14 @@ pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>) {
     chart.level(0.0, Stroke::new(1.5, shade(tokens.critical)), Dash::Solid);
     chart.label_at("grows", words(tokens.critical), Pos2::new(rect.left() + 4.0, zero - 4.0), Align2::LEFT_BOTTOM);
     chart.label_at("dies out", words(tokens.stable), Pos2::new(rect.left() + 4.0, zero + 4.0), Align2::LEFT_TOP);
-    if let Some(pinned) = pinned {
-        let colour = theme::pinned(ui.visuals());
-        chart.curve(&near_zero(pinned.curve().unwrap_or_default()), Stroke::new(1.75, colour), Dash::Dashed);
-        if let Some(critical) = pinned.critical() {
-            let speed = digits::certain(critical.speed, pinned.certainty().speed());
-            chart.upright(critical.speed, Stroke::new(1.5, colour), Dash::Dashed);
+    for (letter, design) in designs.shown() {
+        let (colour, dash) = (letter.colour(ui.visuals()), Dash::Design(letter));
+        chart.curve(&near_zero(design.curve()), Stroke::new(1.75, colour), dash);
+        if let Some(critical) = design.critical() {
+            let speed = digits::certain(critical.speed, design.certainty().speed());
+            chart.upright(critical.speed, Stroke::new(1.5, colour), dash);
             let at = Pos2::new(chart.x.pos(critical.speed), rect.bottom() - 12.0);
-            chart.label(format!("pinned {speed}"), colour, &[at]);
+            chart.label(format!("{} {speed}", letter.name()), colour, &[at, at - Vec2::new(0.0, 22.0)]);
         }
     }
     for piece in

@@ -8,12 +8,12 @@ use super::common::{self, PlotPlace, Slot};
 use super::range::{self, VisibleRange};
 use crate::app::canvas::View;
 use crate::app::command::Command;
+use crate::app::designs::Letter;
 use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::round::roundest;
 use crate::app::series::{Abscissa, Along};
 use crate::app::settings::Settings;
-use crate::app::theme;
 use crate::compute::protocol::Topic;
 use crate::stability::{Critical, Instability};
 use crate::study::Verdict;
@@ -192,12 +192,12 @@ impl Drawing<'_> {
         for run in &waves {
             chart.curve(run, Stroke::new(1.75, shade(tokens.waves)), Dash::Dotted);
         }
-        if let Some(before) = self.pinned() {
-            let colour = theme::pinned(ui.visuals());
+        for (letter, before) in self.kept() {
+            let colour = letter.colour(ui.visuals());
             for stretch in before.speeds() {
-                chart.curve(&stretch, Stroke::new(1.5, colour), Dash::Dashed);
+                chart.curve(&stretch, Stroke::new(1.5, colour), Dash::Design(letter));
             }
-            label_curve(&mut chart, "pinned", colour, &before.critical());
+            label_curve(&mut chart, letter.name(), colour, &before.critical());
         }
         for stretch in along.speeds() {
             chart.curve(&stretch, Stroke::new(2.25, shade(tokens.critical)), Dash::Solid);
@@ -250,10 +250,10 @@ impl Drawing<'_> {
             let stretch: Vec<[f64; 2]> = stretch.iter().map(|&[at, hz]| [at, hz.max(floor)]).collect();
             chart.curve(&stretch, Stroke::new(2.0, colour), Dash::Solid);
         }
-        if let Some(before) = self.pinned() {
-            let stroke = Stroke::new(1.5, theme::pinned(ui.visuals()));
+        for (letter, before) in self.kept() {
+            let stroke = Stroke::new(1.5, letter.colour(ui.visuals()));
             for stretch in before.stretches(value) {
-                chart.curve(&stretch, stroke, Dash::Dashed);
+                chart.curve(&stretch, stroke, Dash::Design(letter));
             }
         }
         let corner = Pos2::new(rect.left() + 0.06 * rect.width(), rect.top() + 0.4 * rect.height());
@@ -281,8 +281,10 @@ impl Drawing<'_> {
         }
     }
 
-    fn pinned(&self) -> Option<Along> {
-        Along::new(self.facts.pinned?.study(Topic::Line)?)
+    /// The same of the kept designs.
+    fn kept(&self) -> impl Iterator<Item = (Letter, Along)> {
+        let shown = self.facts.designs.shown();
+        shown.filter_map(|(letter, design)| Some((letter, Along::new(design.study(Topic::Line)?)?)))
     }
 
     /// What is known at a place, in a line or two.

@@ -9,7 +9,6 @@ use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::series::Meshes;
 use crate::app::studies::Shown;
-use crate::app::theme;
 use crate::compute::protocol::Topic;
 use crate::study::convergence::{Convergence, Extrapolation, NoLimit};
 
@@ -22,7 +21,7 @@ pub const MEANING: &str = "A cable of n elements is a chain of straight pieces. 
 
 /// Draws the plot.
 pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>) {
-    let Facts { document, pinned, .. } = facts;
+    let Facts { document, designs, .. } = facts;
     let now = document.scenario.elements_per_cable;
     let shown = common::study(Topic::Mesh, facts);
     let Some((Shown { known, current }, meshes)) =
@@ -68,13 +67,14 @@ pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>) {
         let spots = [0.8, 0.5].map(|part| Pos2::new(rect.left() + part * rect.width(), chart.y.pos(limit)));
         chart.label(format!("limit {}", digits::certain(limit, Some(uncertainty))), words(tokens.text), &spots);
     }
-    if let Some(before) = pinned.and_then(|pinned| Meshes::new(pinned.study(Topic::Mesh)?, now)) {
-        let colour = theme::pinned(ui.visuals());
+    for (letter, design) in designs.shown() {
+        let Some(before) = design.study(Topic::Mesh).and_then(|known| Meshes::new(known, now)) else { continue };
+        let colour = letter.colour(ui.visuals());
         for stretch in before.stretches() {
-            chart.curve(&stretch, Stroke::new(1.5, colour), Dash::Dashed);
+            chart.curve(&stretch, Stroke::new(1.5, colour), Dash::Design(letter));
             if let Some(last) = stretch.last() {
                 let spot = chart.pos(*last);
-                chart.label("pinned", colour, &[spot]);
+                chart.label(letter.name(), colour, &[spot]);
             }
         }
     }

@@ -11,7 +11,6 @@ use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::meaning::Explain as _;
-use crate::app::pinned::Pinned;
 use crate::app::theme;
 use crate::compute::protocol::{AnalysedPose, ModeRow};
 use crate::stability::{TIE_OF_SHARES, first_largest};
@@ -22,7 +21,7 @@ pub const MEANING: &str = "Every row is a way in which the robot vibrates at the
     move.";
 
 /// Draws the table.
-pub fn ui(ui: &mut Ui, Facts { answers, settings, pinned, mode: choice, .. }: Facts<'_>, commands: &mut Vec<Command>) {
+pub fn ui(ui: &mut Ui, Facts { answers, settings, designs, mode: choice, .. }: Facts<'_>, commands: &mut Vec<Command>) {
     if let Some(note) = common::note_on_modes(answers) {
         common::say(ui, note);
     }
@@ -33,12 +32,12 @@ pub fn ui(ui: &mut Ui, Facts { answers, settings, pinned, mode: choice, .. }: Fa
     }
     let (hertz, unit) = settings.hertz();
     let chosen = answers.shape().filter(|shape| !shape.is_critical).map(|shape| shape.eigenvalue);
-    let before = pinned.and_then(Pinned::pose).map(|pose| pose.modes.as_slice());
-    if before.is_some() {
-        ui.colored_label(
-            theme::pinned(ui.visuals()),
-            "In brackets: the difference to the pinned design's nearest mode.",
-        );
+    // There is room for the difference to one of them.
+    let compared = designs.shown().find_map(|(letter, design)| Some((letter, design.pose()?.modes.as_slice())));
+    let before = compared.map(|(_, modes)| modes);
+    if let Some((letter, _)) = compared {
+        let text = format!("In brackets: the difference to the nearest mode of design {}.", letter.name());
+        ui.colored_label(letter.colour(ui.visuals()), text);
     }
     let height = ui.available_height();
     let row_height = row(ui);

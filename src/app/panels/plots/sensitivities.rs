@@ -1,6 +1,8 @@
 //! What to change: by how much the critical speed changes with each number of the robot.
 
-use eframe::egui::{Align, Align2, Layout, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo};
+use eframe::egui::{
+    Align, Align2, Color32, Layout, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui, Vec2, WidgetInfo,
+};
 
 use super::axis::signed;
 use super::common;
@@ -25,7 +27,7 @@ const VALUE: f32 = 4.4;
 
 /// Draws the bars; a click goes to the control.
 pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
-    let Facts { document, answers, pinned, .. } = facts;
+    let Facts { document, answers, designs, .. } = facts;
     let uncertainty = uncertainty(facts.share());
     let Some((found, current)) = answers.sensitivities() else {
         common::say(ui, "Not computed yet.");
@@ -41,13 +43,18 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     };
     found.sort_by(|a, b| b.speed.abs().total_cmp(&a.speed.abs()));
     let largest = found.first().map_or(1.0, |first| first.speed.abs()).max(1e-12);
-    let before = pinned.and_then(|pinned| pinned.sensitivities());
-    if before.is_some() {
-        ui.colored_label(theme::pinned(ui.visuals()), "The upright marks are those of the pinned design.");
+    // There is room for the marks of one of them.
+    let before = designs.shown().find_map(|(letter, design)| Some((letter, design.sensitivities()?)));
+    if let Some((letter, _)) = before {
+        let text = format!("The upright marks are those of design {}.", letter.name());
+        ui.colored_label(letter.colour(ui.visuals()), text);
     }
     ui.spacing_mut().item_spacing.y = 0.0;
     for one in &found {
-        let then = before.and_then(|all| all.iter().find(|other| other.knob == one.knob)).map(|other| other.speed);
+        let then = before.and_then(|(letter, all)| {
+            let then = all.iter().find(|other| other.knob == one.knob)?.speed;
+            Some((letter.colour(ui.visuals()), then))
+        });
         let number = control(one.knob, &document.scenario);
         let height = ui.spacing().interact_size.y.max(26.0);
         ui.allocate_ui_with_layout(
@@ -68,7 +75,13 @@ pub fn ui(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
 }
 
 /// One bar; whether it was clicked.
-fn bar(ui: &mut Ui, one: &Sensitivity, [largest, uncertainty]: [f64; 2], then: Option<f64>, current: bool) -> bool {
+fn bar(
+    ui: &mut Ui,
+    one: &Sensitivity,
+    [largest, uncertainty]: [f64; 2],
+    then: Option<(Color32, f64)>,
+    current: bool,
+) -> bool {
     let height = ui.spacing().interact_size.y.max(26.0);
     let (rect, response) = ui.allocate_exact_size(Vec2::new(ui.available_width(), height), Sense::click());
     let name = name(one.knob);
@@ -103,8 +116,8 @@ fn bar(ui: &mut Ui, one: &Sensitivity, [largest, uncertainty]: [f64; 2], then: O
         Rect::from_x_y_ranges(middle.min(end(one.speed))..=middle.max(end(one.speed)), y.min + 6.0..=y.max - 6.0);
     painter.rect_filled(drawn, 2.0, colour);
     painter.vline(middle, y, Stroke::new(1.0, tokens.frame));
-    if let Some(then) = then {
-        painter.vline(end(then), y, Stroke::new(2.0, theme::pinned(ui.visuals())));
+    if let Some((colour, then)) = then {
+        painter.vline(end(then), y, Stroke::new(2.0, colour));
     }
     let frequency = one.frequency.map_or_else(String::new, |change| format!("\nFrequency {change:+} % per percent"));
     response.explained(format!("Critical speed {:+} % per percent{frequency}", one.speed)).clicked()
