@@ -1,18 +1,24 @@
 //! Commands carried out, between two frames.
 
-use eframe::egui::Context;
+use eframe::egui::{Context, Id, Vec2};
 
 use super::designs::Action;
 use super::export::{self, Content};
 use super::facts::Present;
 use super::files::{self, Clip};
 use super::notices::About;
+use super::panels::plots;
+use super::picture::{self, Format, Frame, Picture};
 use super::state::{Document, Plot, SheetTab};
 use super::studies::Owner;
+use super::theme::{self, Tokens};
 use super::{Command, Tautline, canvas, fields, number, view_link};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
 use crate::scenario::{Parameter, Scenario, link, table};
+
+/// Said where there is nothing to save.
+const NOTHING: &str = "There is nothing to save yet: it is not on show, or still being computed.";
 
 impl Tautline {
     pub(super) fn apply(&mut self, context: &Context, command: Command) {
@@ -241,18 +247,69 @@ impl Tautline {
             Content::Analysis => ("-analysis.json", export::analysis(facts)),
             Content::Plot(plot) => (export::suffix(plot), export::plot(plot, facts).map(|table| table.csv())),
             Content::Map => ("-map.csv", export::map(facts).map(|table| table.csv())),
-            Content::PlotPicture(place) if place.is_positive() => {
-                return self.files.save_picture(context, &(name + "-plot.png"), place);
+            Content::PlotPicture(plot, chart, format) => {
+                let name = [&name, "-", plot.name(), format.ending()].concat();
+                return self.save_picture(context, &name, self.plot_picture(plot, chart, format));
             }
-            Content::CanvasPicture => {
-                return self.files.save_picture(context, &(name + "-canvas.png"), self.screen.regions.canvas);
+            Content::CanvasPicture(format) => {
+                let name = [&name, "-canvas", format.ending()].concat();
+                return self.save_picture(context, &name, Some(self.canvas_picture(format)));
             }
-            Content::PlotPicture(_) => ("", None),
         };
         match text {
             Some(text) => self.files.save(context, &(name + suffix), text.into_bytes()),
-            None => self.complain("There is nothing to save yet: it is not on show, or still being computed.".into()),
+            None => self.complain(NOTHING.into()),
         }
+    }
+}
+
+/// Pictures of what is on the screen.
+impl Tautline {
+    fn save_picture(&mut self, context: &Context, name: &str, file: Option<Result<Vec<u8>, String>>) {
+        match file {
+            Some(Ok(bytes)) => self.files.save(context, name, bytes),
+            Some(Err(reason)) => self.complain(format!("{name} could not be made: {reason}.")),
+            None => self.complain(NOTHING.into()),
+        }
+    }
+
+    /// A plot as the content of a file; nothing where there is nothing to see yet.
+    pub(super) fn plot_picture(&self, plot: Plot, chart: Id, format: Format) -> Option<Result<Vec<u8>, String>> {
+        let facts = self.facts();
+        // Where the pose has no equilibrium, what is known of an earlier one is on show.
+        if export::plot(plot, facts).is_none() && !facts.answers.pose_failed() {
+            return None;
+        }
+        let (title, caption) = (plots::picture_title(plot, facts), picture::caption(facts));
+        let size = plots::picture_size(plot, facts);
+        let frame = Frame { margins: true, ground: self.tokens().panel, ..self.frame(&title, &caption, size) };
+        let picture = Picture::new(frame, &mut |ui| {
+            plots::picture(plot, &self.context, chart, self.state.campbell_hz, ui, facts);
+        });
+        Some(picture.file(format))
+    }
+
+    /// The canvas as the content of a file.
+    pub(super) fn canvas_picture(&self, format: Format) -> Result<Vec<u8>, String> {
+        let facts = self.facts();
+        let (title, caption) = (picture::name(facts), picture::caption(facts));
+        let on_screen = self.screen.regions.canvas.size();
+        let shape = if on_screen.min_elem() > 0.0 { on_screen.y / on_screen.x } else { 0.5 };
+        let size = Vec2::new(picture::PLOT.x, (picture::PLOT.x * shape).clamp(350.0, 1000.0) + 150.0);
+        let mut runtime = self.screen.canvas.for_picture();
+        let picture = Picture::new(self.frame(&title, &caption, size), &mut |ui| {
+            canvas::picture(&mut runtime, &self.state, &self.session, ui, facts);
+        });
+        picture.file(format)
+    }
+
+    fn tokens(&self) -> &'static Tokens {
+        theme::tokens(&self.context.global_style().visuals)
+    }
+
+    fn frame<'a>(&self, title: &'a str, caption: &'a str, size: Vec2) -> Frame<'a> {
+        let (theme, time) = (self.context.theme(), self.context.input(|input| input.time));
+        Frame { title, caption, size, theme, ground: self.tokens().canvas, margins: false, time }
     }
 }
 

@@ -14,6 +14,7 @@ use crate::app::icons::{self, Icon, IconButton};
 use crate::app::meaning::Explain as _;
 use crate::app::name;
 use crate::app::panels::answer;
+use crate::app::picture::Format;
 use crate::app::shortcuts::{OPEN, REDO, SAVE};
 use crate::app::state::{Camera, Document, Plot, Session, UiState};
 use crate::app::theme;
@@ -276,7 +277,8 @@ fn more(
                 ("Save analysis as JSON", Content::Analysis),
                 ("Save modes as CSV", Content::Plot(Plot::Modes)),
                 ("Save the map as CSV", Content::Map),
-                ("Save the canvas as PNG", Content::CanvasPicture),
+                ("Robot as PNG", Content::CanvasPicture(Format::Png)),
+                ("Robot as SVG", Content::CanvasPicture(Format::Svg)),
             ];
             for (name, content) in contents {
                 if entry(ui, name, None, true) {

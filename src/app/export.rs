@@ -2,11 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use eframe::egui::Rect;
+use eframe::egui::Id;
 use serde_json::Value;
 
 use crate::app::comparison::Comparison;
 use crate::app::facts::Facts;
+use crate::app::picture::Format;
 use crate::app::series::{self, degrees};
 use crate::app::state::Plot;
 use crate::app::studies::StudyResults;
@@ -25,10 +26,10 @@ pub enum Content {
     Plot(Plot),
     /// The numbers of the map.
     Map,
-    /// A picture of a plot, which is there on the screen, in points.
-    PlotPicture(Rect),
+    /// A picture of a plot: the part of it that the chart of this name shows.
+    PlotPicture(Plot, Id, Format),
     /// A picture of the canvas.
-    CanvasPicture,
+    CanvasPicture(Format),
 }
 
 /// A table of numbers and words without commas, tabs and quotes.

@@ -160,6 +160,7 @@ impl Tautline {
             legend: !matches!(arrangement.form, Form::Frame | Form::Present) && (compact || corner.height() >= LEGEND),
             pose_line: under
                 && (arrangement.strip.is_some() || self.state.dock == Plot::Line || arrangement.form == Form::Present),
+            picture: false,
         };
         let Self { screen, state, session, commands, .. } = self;
         let inside = UiBuilder::new().max_rect(rect).id_salt("canvas");

@@ -36,6 +36,7 @@ mod number;
 mod page;
 mod panels;
 mod persist;
+mod picture;
 mod regions;
 mod round;
 mod screen;
@@ -73,6 +74,7 @@ use screen::Screen;
 use state::{Document, Session, UiState};
 use studies::{Joined, Owner, SharedPool, Studies};
 
+pub use picture::raster;
 pub use tree::layout;
 
 use crate::compute::Pool;

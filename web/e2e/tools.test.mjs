@@ -191,8 +191,8 @@ browserTest("numbers and pictures are saved", async ({ open }) => {
     assert.ok(rows.slice(1).every((row) => known.has(`${Number(row[0])} ${Number(row[1])}`)), csv.toString());
 
     for (const [menu, entry, expected, smallest] of [
-        ["More", "Save the canvas as PNG", "paper-robot-canvas.png", 400],
-        ["More for Eigenvalues", "Save as PNG", "paper-robot-plot.png", 200],
+        ["More", "Robot as PNG", "paper-robot-canvas.png", 400],
+        ["More for Eigenvalues", "Picture (PNG)", "paper-robot-eigenvalues.png", 200],
     ]) {
         const [name, png] = await save(menu, entry);
         assert.equal(name, expected);

@@ -48,6 +48,10 @@ const NARROW: f32 = 480.0;
 const WIDE: f32 = 280.0;
 /// Below its top the legend takes so much, in points.
 const LEGEND: f32 = 60.0;
+/// The map's legend takes so much of a picture, in points.
+const MAP_KEY: f32 = 100.0;
+/// Room on the left of a picture's legend, in points.
+const PICTURE_MARGIN: f32 = 16.0;
 /// Room around the button that fits the view, in points.
 const ROOM: f32 = 8.0;
 
@@ -64,6 +68,8 @@ pub struct Space {
     pub legend: bool,
     /// Whether the line through the pose goes down to the plot under the canvas.
     pub pose_line: bool,
+    /// For a picture: nothing to press.
+    pub picture: bool,
 }
 
 /// What the canvas keeps from frame to frame.
@@ -83,6 +89,13 @@ pub struct Runtime {
     range: KeptRange<Scenario>,
     /// Which state the critical speed on show belongs to, where that is an earlier one, and since when it has been, in s.
     old: Option<(Option<Revision>, f64)>,
+}
+
+impl Runtime {
+    /// What a picture begins with, so that its colours mean what those on the screen mean.
+    pub fn for_picture(&self) -> Self {
+        Self { layer: self.layer.for_picture(), range: self.range.clone(), old: self.old, ..Self::default() }
+    }
 }
 
 /// Draws the canvas in all the room there is, and turns drags, clicks and keys into commands. Gives where it is.
@@ -164,14 +177,39 @@ pub fn ui(
     let wheel_zooms = !session.embedded;
     handles::camera(&mut session.camera, ui, &background, view, !state.map.on, wheel_zooms);
     let at_left = space.corner.center().x < rect.center().x;
-    if state.map.on {
+    if state.map.on && space.picture {
+        map::key(&runtime.layer, state.map, ui, space.corner, facts);
+    } else if state.map.on {
         map::controls(&mut runtime.layer, &mut state.map, ui, space.corner, facts, commands);
     } else if space.legend {
         let forces = [strongest, largest.unwrap_or(0.0)];
         legend::tensions(&painter, ui.visuals(), &pen.font, space.corner, at_left, forces);
     }
-    fit(runtime, &mut session.camera, ui, rect, space, state.map.on);
+    if !space.picture {
+        fit(runtime, &mut session.camera, ui, rect, space, state.map.on);
+    }
     rect
+}
+
+/// Draws what is on the canvas for a picture, in all the room there is, with the colours' ranges that are on the screen.
+pub fn picture(runtime: &mut Runtime, state: &UiState, session: &Session, ui: &mut Ui, facts: Facts<'_>) {
+    let room = ui.available_rect_before_wrap();
+    let top = if state.map.on { MAP_KEY } else { LEGEND };
+    let corner = Rect::from_min_max(
+        room.min + Vec2::new(PICTURE_MARGIN, 0.0),
+        egui::Pos2::new(room.center().x, room.min.y + top),
+    );
+    let space = Space {
+        insets: Insets { top, ..Insets::default() },
+        corner,
+        compact: false,
+        legend: true,
+        pose_line: false,
+        picture: true,
+    };
+    let (mut state, mut session) = (state.clone(), session.clone());
+    session.unlocked = false;
+    self::ui(runtime, &mut state, &mut session, ui, facts, space, &mut Vec::new());
 }
 
 /// Puts the scene on the screen. Nothing of that depends on whether the pose has an equilibrium, or it would jump.

@@ -10,7 +10,7 @@ mod system;
 
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use eframe::egui::{Align2, Color32, ColorImage, Context, Event, FontId, Id, LayerId, Order, Pos2, Rect, Vec2};
+use eframe::egui::{Align2, Context, Event, FontId, Id, LayerId, Order};
 
 pub use outbox::Clip;
 
@@ -58,20 +58,6 @@ impl Files {
     /// press them.
     pub fn paste(&self, context: &Context) {
         system::paste(&self.outbox(context));
-    }
-
-    /// Saves the part of the window within `rect` as a PNG, once the window has been drawn again.
-    pub fn save_picture(&self, context: &Context, name: &str, rect: Rect) {
-        let (outbox, name) = (self.outbox(context), name.to_owned());
-        let scale = context.pixels_per_point();
-        context.request_screenshot(move |image| {
-            #[expect(clippy::cast_precision_loss)] // A few thousand pixels.
-            let whole = Rect::from_min_size(Pos2::ZERO, Vec2::from(image.size.map(|n| n as f32)) / scale);
-            match png(&image.region(&rect.intersect(whole), Some(scale))) {
-                Ok(bytes) => system::save(outbox, &name, bytes),
-                Err(reason) => outbox.command(Command::Complain(format!("{name} could not be made: {reason}"))),
-            }
-        });
     }
 
     /// What has been read since the last call, and what was dropped or pasted.
@@ -123,35 +109,4 @@ pub fn announce_drop(context: &Context) {
     painter.rect_filled(rect, 0.0, visuals.extreme_bg_color.gamma_multiply(0.8));
     let font = FontId::proportional(24.0);
     painter.text(rect.center(), Align2::CENTER_CENTER, "Drop a scenario file to open it", font, visuals.text_color());
-}
-
-/// A picture as a PNG file.
-fn png(image: &ColorImage) -> Result<Vec<u8>, String> {
-    let too_large = |error: std::num::TryFromIntError| error.to_string();
-    let [width, height] = image.size;
-    let (width, height) = (u32::try_from(width).map_err(too_large)?, u32::try_from(height).map_err(too_large)?);
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, width, height);
-    encoder.set_color(png::ColorType::Rgba);
-    let data: Vec<u8> = image.pixels.iter().flat_map(Color32::to_srgba_unmultiplied).collect();
-    let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(&data));
-    written.map_err(|error| error.to_string())?;
-    Ok(bytes)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pictures_are_png_files_of_their_size_and_colours() {
-        let mut image = ColorImage::filled([3, 2], Color32::from_rgb(10, 200, 30));
-        image.pixels[4] = Color32::from_rgb(1, 2, 3);
-        let bytes = png(&image).expect("a picture");
-        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("a PNG file");
-        let mut data = vec![0; 24];
-        reader.next_frame(&mut data).expect("its pixels");
-        assert_eq!((reader.info().width, reader.info().height), (3, 2));
-        assert_eq!((&data[..4], &data[16..20]), (&[10, 200, 30, 255][..], &[1, 2, 3, 255][..]));
-    }
 }

@@ -43,10 +43,12 @@ impl Outbox {
         });
     }
 
-    /// Tells where the file called `name` was saved, where that is known, or why it was not.
+    /// Tells where the file called `name` was saved, or that its download has begun where only the browser knows the place, or
+    /// why it was not saved.
     pub fn saved(&self, name: &str, outcome: Result<Option<String>, String>) {
         match outcome {
-            Ok(place) => self.command(Command::Done(place.map(|place| format!("Saved {place}.")))),
+            Ok(Some(place)) => self.command(Command::Done(Some(format!("Saved {place}.")))),
+            Ok(None) => self.command(Command::Done(Some(format!("The download of {name} has begun.")))),
             Err(reason) => self.command(Command::Complain(format!("{name} could not be saved: {reason}"))),
         }
     }

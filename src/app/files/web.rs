@@ -56,7 +56,7 @@ pub(super) fn read(outbox: Outbox, files: Vec<DroppedFileHandle>) {
 
 #[expect(clippy::needless_pass_by_value)] // As on the desktop, where writing goes on after the call.
 pub(super) fn save(outbox: Outbox, file: &str, bytes: Vec<u8>) {
-    // The browser says itself where a download has gone.
+    // The browser alone knows where a download goes.
     outbox.saved(file, download(file, &bytes).map(|()| None).map_err(|error| reason(&error)));
 }
 

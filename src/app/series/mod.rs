@@ -29,6 +29,15 @@ pub enum Abscissa {
 }
 
 impl Abscissa {
+    /// What an axis of it is called, with its unit.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::X => "x, m",
+            Self::Y => "y, m",
+            Self::Along => "way along the line, m",
+        }
+    }
+
     /// A place in words.
     pub fn place(self, at: f64, decimals: usize) -> String {
         match self {

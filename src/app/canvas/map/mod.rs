@@ -11,8 +11,8 @@ mod region;
 use std::time::Duration;
 
 use eframe::egui::{
-    Align, Button, ComboBox, Label, Layout, Painter, PopupAnchor, ProgressBar, Rect, Response, Role, Sense, Shape,
-    Stroke, Tooltip, Ui, UiBuilder, Vec2, Visuals, WidgetInfo,
+    Align, Button, ComboBox, Label, Layout, Painter, PopupAnchor, ProgressBar, Rect, Response, RichText, Role, Sense,
+    Shape, Stroke, Tooltip, Ui, UiBuilder, Vec2, Visuals, WidgetInfo,
 };
 
 pub use lines::Taken;
@@ -86,6 +86,11 @@ pub struct Layer {
 }
 
 impl Layer {
+    /// One without pictures, whose colours have the same range.
+    pub fn for_picture(&self) -> Self {
+        Self { colours: self.colours.clone(), ..Self::default() }
+    }
+
     /// Makes anew what there are other answers for, another quantity or other colours.
     pub fn update(&mut self, ui: &Ui, facts: Facts<'_>, view: MapView) {
         let Facts { document, studies, .. } = facts;
@@ -236,6 +241,21 @@ pub fn controls(
     });
     let colour = theme::tokens(ui.visuals()).canvas.gamma_multiply(0.92);
     ui.painter().set(ground, Shape::rect_filled(inner.response.rect.expand(4.0), 6.0, colour));
+}
+
+/// What a picture's colours and patterns mean, in `corner` of the canvas: nothing to press.
+pub fn key(layer: &Layer, map: MapView, ui: &mut Ui, corner: Rect, facts: Facts<'_>) {
+    let room = UiBuilder::new().max_rect(corner).layout(Layout::top_down(Align::Min));
+    ui.scope_builder(room, |ui| {
+        ui.spacing_mut().item_spacing = Vec2::new(8.0, 6.0);
+        legend::ui(ui, map.quantity, layer.picture.as_ref(), layer.current, facts);
+        let way = way(facts.document.scenario.motion.direction);
+        let text = if map.worst { "in the worst of 16 directions".into() } else { format!("moving {way}") };
+        ui.label(RichText::new(text).small().weak());
+        if let Some(picture) = &layer.picture {
+            legend::entries(ui, picture);
+        }
+    });
 }
 
 /// What the map shows, and in which direction each point is passed.

@@ -7,7 +7,7 @@ use nalgebra::Complex;
 
 use super::axis::signed;
 use super::chart::{Chart, Dash, Symbol, Titles, inner};
-use super::common::{self, PlotPlace};
+use super::common::{self, PlotPlace, Slot};
 use super::range::{self, VisibleRange};
 use crate::app::command::Command;
 use crate::app::digits;
@@ -36,7 +36,7 @@ pub fn ui(place: PlotPlace, highest: &mut f64, ui: &mut Ui, facts: Facts<'_>, co
     };
     let ids = [place.id(), place.id().with("growth")];
     let (drawn, width) = (*highest, ui.available_width());
-    ui.horizontal(|ui| {
+    let slider = |ui: &mut Ui, highest: &mut f64| {
         // Beside the number and its name.
         ui.spacing_mut().slider_width = (width - 220.0).clamp(36.0, 120.0);
         let unit = Unit::of_hertz(settings.hertz().1);
@@ -45,7 +45,10 @@ pub fn ui(place: PlotPlace, highest: &mut f64, ui: &mut Ui, facts: Facts<'_>, co
         let control = Control { name: "Highest frequency", unit, step, size };
         let meaning = "Modes with higher frequencies are not drawn.";
         number::slider(ui, &control, meaning, highest, [0.5, 100.0].map(|end| unit.shown(end)));
-    });
+    };
+    if place.slot != Slot::Picture {
+        ui.horizontal(|ui| slider(ui, highest));
+    }
     // Whoever turns the range wants to see it.
     if drawn.to_bits() != highest.to_bits() {
         for id in ids {

@@ -34,6 +34,8 @@ pub enum Slot {
     Present,
     /// In the place of the robot.
     Large,
+    /// Alone in a picture: nothing to press, and the axes say what they show.
+    Picture,
 }
 
 impl Slot {

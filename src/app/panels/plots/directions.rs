@@ -9,7 +9,7 @@ use eframe::egui::{
 
 use super::axis::signed;
 use super::chart::{self, Chart, Dash, Symbol, quad};
-use super::common::{self, PlotPlace};
+use super::common::{self, PlotPlace, Slot};
 use super::range::{self, VisibleRange};
 use crate::app::command::Command;
 use crate::app::digits;
@@ -51,7 +51,7 @@ pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Co
         diagram.ui(place, ui, &response);
         ui.scope_builder(eframe::egui::UiBuilder::new().max_rect(beside), |ui| {
             ui.label("Critical speed by direction, m/s");
-            diagram.words(ui, commands);
+            diagram.words(place, ui, commands);
         });
         return;
     }
@@ -59,7 +59,7 @@ pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Co
     let rect = room.with_max_y(room.bottom() - button - 3.6 * chart::font(ui).size);
     let response = ui.allocate_rect(rect, Sense::click_and_drag());
     diagram.ui(place, ui, &response);
-    diagram.words(ui, commands);
+    diagram.words(place, ui, commands);
 }
 
 /// What is drawn.
@@ -73,8 +73,11 @@ struct Diagram<'a> {
 
 impl Diagram<'_> {
     /// What the curve says of the present speed, and the button that goes to its lowest point.
-    fn words(&self, ui: &mut Ui, commands: &mut Vec<Command>) {
+    fn words(&self, place: PlotPlace, ui: &mut Ui, commands: &mut Vec<Command>) {
         ui.add(Label::new(RichText::new(self.finding()).weak()).wrap());
+        if place.slot == Slot::Picture {
+            return;
+        }
         let button = ui.add(Button::new("Turn to lowest"));
         if button.explained("Sets the direction of the motion").clicked() {
             let mut scenario = self.facts.document.scenario.clone();

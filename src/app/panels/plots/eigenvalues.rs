@@ -53,7 +53,7 @@ pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Co
                 })
             }
         }
-        Slot::Dock | Slot::Sheet | Slot::Under | Slot::Present => None,
+        Slot::Dock | Slot::Sheet | Slot::Under | Slot::Present | Slot::Picture => None,
     };
     let mut outer = room;
     match table {

@@ -14,6 +14,7 @@ use crate::app::export::Content;
 use crate::app::facts::Facts;
 use crate::app::icons::{Icon, IconButton, focus_ring};
 use crate::app::meaning::Explain as _;
+use crate::app::picture::Format;
 use crate::app::state::{Camera, Plot, PlotGroup};
 use crate::app::theme;
 
@@ -28,8 +29,6 @@ pub struct Header<'a> {
     pub large: &'a mut Option<Plot>,
     /// What the robot's horizontal axis follows, which the dock's study along the line shares.
     pub camera: &'a mut Camera,
-    /// Where the plot is on the screen, for a picture of it.
-    pub shot: Rect,
     /// What the plot explains itself with.
     pub explanation: &'a dyn Fn(Plot) -> String,
 }
@@ -85,7 +84,7 @@ impl Header<'_> {
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| caption(place, ui, facts, commands));
                 });
             }
-            Slot::Right | Slot::Second | Slot::Large | Slot::Present => {
+            Slot::Right | Slot::Second | Slot::Large | Slot::Present | Slot::Picture => {
                 ui.horizontal(|ui| {
                     let place = PlotPlace { slot, plot: *self.open, wheel };
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -247,7 +246,8 @@ impl Header<'_> {
             }
         };
         save(ui, "Save as CSV", Content::Plot(place.plot));
-        save(ui, "Save as PNG", Content::PlotPicture(self.shot));
+        save(ui, "Picture (PNG)", Content::PlotPicture(place.plot, place.id(), Format::Png));
+        save(ui, "Picture (SVG)", Content::PlotPicture(place.plot, place.id(), Format::Svg));
         if place.plot == Plot::Modes && facts.answers.pose().is_some() && ui.button("Copy the table").clicked() {
             commands.push(Command::CopyModes);
             ui.close();
@@ -299,7 +299,7 @@ fn caption(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<C
 }
 
 /// The line on which the platform moves, and which way.
-fn line_of([x, y]: [f64; 2], [dx, dy]: [f64; 2]) -> String {
+pub fn line_of([x, y]: [f64; 2], [dx, dy]: [f64; 2]) -> String {
     let number = |value: f64| {
         let text = format!("{value:.2}");
         signed(text.trim_end_matches('0').trim_end_matches('.'))

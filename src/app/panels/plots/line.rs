@@ -47,7 +47,7 @@ pub fn ui(place: PlotPlace, view: Option<&View>, ui: &mut Ui, facts: Facts<'_>, 
     };
     // Those who have no room for them find them in the explanation.
     if !place.slot.is_under_the_robot()
-        && place.slot != Slot::Sheet
+        && !matches!(place.slot, Slot::Sheet | Slot::Picture)
         && current
         && let Some(findings) = along.findings()
     {
@@ -89,7 +89,16 @@ impl Drawing<'_> {
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, self.told()));
         let outer = response.rect;
         let size = chart::font(ui).size;
-        let titles = Titles { x_unit: Some("m"), ..Titles::default() };
+        // On the screen the curves say what they are; a picture has titles at its axes, too.
+        let alone = place.is_some_and(|place| place.slot == Slot::Picture);
+        let frequency = format!("frequency, {}", self.settings.hertz().1);
+        let title = |text| Some(text).filter(|_| alone);
+        let titles = Titles {
+            x: title(self.along.abscissa.title()),
+            x_unit: Some("m").filter(|_| !alone),
+            y: title(frequency.as_str()),
+        };
+        let of_speeds = Titles { y: title("critical speed, m/s"), ..titles };
         let mut room = chart::inner(ui, outer, titles);
         let both = place.is_some() && room.height() >= BOTH;
         let id = place.map(PlotPlace::id);
@@ -112,7 +121,13 @@ impl Drawing<'_> {
         let height = if both { (room.height() - between) * 2.0 / 3.0 } else { room.height() };
         let upper = room.with_max_y(room.top() + height);
         let now = along.place(facts.document.scenario.motion.position);
-        let mut speeds = self.speeds(ui, outer, upper, x, if both { Titles::default() } else { titles });
+        let mut speeds = self.speeds(
+            ui,
+            outer,
+            upper,
+            x,
+            if both { Titles { y: of_speeds.y, ..Titles::default() } } else { of_speeds },
+        );
         let mut hertz = both.then(|| {
             let lower = room.with_min_y(upper.bottom() + between);
             self.frequencies(ui, outer, lower, x, titles)

@@ -16,7 +16,7 @@ mod range;
 mod sensitivities;
 mod what_if;
 
-use eframe::egui::{Align, Id, Label, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
+use eframe::egui::{Align, Context, Id, Label, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
 pub use common::Slot;
 pub use line::strip;
@@ -25,9 +25,11 @@ use crate::app::canvas::View;
 use crate::app::command::Command;
 use crate::app::facts::Facts;
 use crate::app::gestures;
+use crate::app::picture::PLOT;
 use crate::app::state::{Plot, PlotGroup, Session, UiState};
 use common::PlotPlace;
 use header::Header;
+use range::VisibleRange;
 
 /// Room beside the tabs under the robot, in points.
 const MARGIN: f32 = 12.0;
@@ -50,23 +52,15 @@ pub fn ui(
         Slot::Right | Slot::Sheet => state.plot,
         Slot::Second => state.second,
         Slot::Dock | Slot::Under => state.dock,
-        Slot::Present => Plot::Line,
+        Slot::Present | Slot::Picture => Plot::Line,
         Slot::Large => session.large.unwrap_or(state.plot),
     };
     if slot == Slot::Dock && open.group() != PlotGroup::Workspace {
         open = Plot::Line;
     }
     let explanation = |plot| explanation(plot, facts);
-    // For a picture of the plot: where it was drawn last.
-    let shot_id = Id::unique(("picture of a plot", slot));
-    let shot = ui.data(|data| data.get_temp(shot_id)).unwrap_or(Rect::NOTHING);
-    let mut header = Header {
-        open: &mut open,
-        large: &mut session.large,
-        camera: &mut session.camera,
-        shot,
-        explanation: &explanation,
-    };
+    let mut header =
+        Header { open: &mut open, large: &mut session.large, camera: &mut session.camera, explanation: &explanation };
     let rect = ui.push_id(("plots", slot), |ui| {
         if slot != Slot::Present {
             // A plot under the robot has its whole width, its tabs do not.
@@ -95,16 +89,55 @@ pub fn ui(
         rect
     });
     let rect = rect.inner;
-    ui.data_mut(|data| data.insert_temp(shot_id, rect.intersect(ui.clip_rect())));
     match slot {
         Slot::Right | Slot::Sheet => state.plot = open,
         Slot::Second => state.second = open,
         Slot::Dock | Slot::Under => state.dock = open,
-        Slot::Present => {}
+        Slot::Present | Slot::Picture => {}
         // Unless it has just been sent back to its size.
         Slot::Large => session.large = session.large.map(|_| open),
     }
     rect
+}
+
+/// Draws a plot for a picture: the part of it that is on show in the `chart` of this name on the `screen`.
+pub fn picture(plot: Plot, screen: &Context, chart: Id, highest: f64, ui: &mut Ui, facts: Facts<'_>) {
+    let place = PlotPlace { slot: Slot::Picture, plot, wheel: false };
+    // The speed diagram has a second chart.
+    for (there, here) in [(chart, place.id()), (chart.with("growth"), place.id().with("growth"))] {
+        VisibleRange::of(screen, there).show(ui.ctx(), here);
+    }
+    let mut highest = highest;
+    explained(place, None, &mut highest, ui, facts, &mut Vec::new());
+}
+
+/// The title of a plot's picture.
+pub fn picture_title(plot: Plot, facts: Facts<'_>) -> String {
+    let motion = facts.document.scenario.motion;
+    match plot {
+        Plot::Line => {
+            format!("Critical speed and frequency along {}", header::line_of(motion.position, motion.direction))
+        }
+        Plot::Directions => "Critical speed by direction, m/s".into(),
+        Plot::Growth => "Largest growth rate against speed".into(),
+        Plot::Campbell => "Frequencies and growth rates of all modes against speed".into(),
+        Plot::Mesh => "Critical speed against the mesh".into(),
+        Plot::Sensitivities => "What to change for another critical speed".into(),
+        _ => plot.title().into(),
+    }
+}
+
+/// The size of a plot's picture, in points: tables are as high as they are long.
+pub fn picture_size(plot: Plot, facts: Facts<'_>) -> Vec2 {
+    const ROW: f32 = 26.0;
+    let rows = match plot {
+        Plot::Modes => common::with_modes(facts.answers).map_or(0, |pose| pose.modes.len()),
+        Plot::Sensitivities => facts.answers.sensitivities().map_or(0, |(found, _)| found.as_ref().map_or(0, Vec::len)),
+        _ => 0,
+    };
+    #[expect(clippy::cast_precision_loss)] // At most a few hundred.
+    let table = (rows as f32 + 4.0) * ROW + 100.0;
+    PLOT.max(Vec2::new(0.0, table))
 }
 
 /// Draws a plot, and below it what it means, where that is asked for.
