@@ -350,7 +350,9 @@ fn is_small(scenario: &Scenario) -> bool {
 /// Makes a study small. Numbers that are not allowed stay.
 fn bound(study: &mut Study) {
     match study {
-        Study::Line { limit, .. } | Study::Directions { limit, .. } => bound_speed(limit),
+        Study::Line { limit, .. } | Study::Directions { limit, .. } | Study::WhatIf(WhatIf { limit, .. }) => {
+            bound_speed(limit);
+        }
         Study::Map { mapped, directions, .. } => {
             if let Mapped::Critical { limit } = mapped {
                 bound_speed(limit);
@@ -375,7 +377,6 @@ fn bound(study: &mut Study) {
             }
         }
         Study::Border { grid } => grid.nx = grid.nx.min(MOST_ELEMENTS),
-        Study::WhatIf(WhatIf { limit, .. }) => bound_speed(limit),
         // A search as far as a wanted speed that is far away takes long.
         Study::Reach(Reach { number, target, limit }) => {
             number.values.truncate(MOST_PLACES);

@@ -10,7 +10,7 @@ mod common;
 use common::random::{config, moving_robot};
 use proptest::prelude::*;
 use tautline::compute::Engine;
-use tautline::compute::protocol::{Job, ModeChoice, Reply, Request, Revision, Update, Which};
+use tautline::compute::protocol::{Extent, Job, ModeChoice, Reply, Request, Revision, Update, Which};
 use tautline::mechanics;
 use tautline::robot::Vec2;
 use tautline::scenario::Scenario;
@@ -43,11 +43,17 @@ fn way() -> impl Strategy<Value = Vec<Place>> {
     prop::collection::vec(place, 12..36)
 }
 
-/// The replies to the last pose, without reports of progress and without times. If a spectrum takes long, the curve of
-/// growth rates has fewer points, each found from the one before; so only its beginning and its end are compared.
+/// The replies to the last pose, without reports of progress and without times. If a spectrum takes long, the slowest modes
+/// come before it, and the curve of growth rates has fewer points, each found from the one before. So what comes before
+/// the spectrum is left out, and of the curve only the beginning and the end are compared.
 fn answers(replies: Vec<Reply>) -> Vec<Update> {
     let last = replies.into_iter().filter(|reply| reply.revision == LAST).map(|reply| reply.update);
-    let kept = last.filter(|update| !matches!(update, Update::Searching(_)));
+    let preliminary = |update: &Update| match update {
+        Update::Searching(_) => true,
+        Update::Pose(pose) => pose.extent == Extent::SlowestSoFar,
+        _ => false,
+    };
+    let kept = last.filter(|update| !preliminary(update));
     let timeless = |update| match update {
         Update::Critical(mut answer) => {
             answer.elapsed_ms = 0.0;

@@ -70,8 +70,9 @@ fn robots_whose_cables_have_materials_of_their_own() {
         assert!(robot.cables.iter().any(|cable| !cable.own.is_empty()), "{}", name(&file));
         let Some(lowest) = case["expected"]["undamped_omega_squared"].as_array() else { continue };
         let damping = Damping { alpha: 0.0, beta: 0.0 };
-        let undamped = Robot::new(RobotSpec { damping, ..(*robot).clone() }).expect(name(&file));
-        let spectrum = LocalProblem::new(&undamped, &motion).expect(name(&file)).spectrum(0.0).expect(name(&file));
+        let undamped = Robot::new(RobotSpec { damping, ..(*robot).clone() }).expect("a physical robot");
+        let spectrum =
+            LocalProblem::new(&undamped, &motion).expect("an equilibrium").spectrum(0.0).expect("eigenvalues");
         let mut squares: Vec<f64> = spectrum.eigenvalues().filter(|l| l.im > 0.0).map(|l| l.im * l.im).collect();
         squares.sort_by(f64::total_cmp);
         for (k, (square, expected)) in squares.into_iter().zip(lowest).enumerate() {

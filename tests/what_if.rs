@@ -110,7 +110,7 @@ fn a_wanted_critical_speed_is_taken_in_one_step_or_out_of_reach() {
 #[test]
 fn two_numbers_are_a_map_and_a_click_sets_both() {
     let mut app = with_mass();
-    choose(&mut app, "Second number to vary", "Mass damping α");
+    choose(&mut app, "Second number to vary", "Gravity g");
     let (text, at) = told(&app);
     assert!(text.starts_with("What if: the critical speed over Platform mass m from "), "{text}");
     assert_eq!(app.state().study(Topic::WhatIf).1, 31 * 21);
@@ -123,7 +123,7 @@ fn two_numbers_are_a_map_and_a_click_sets_both() {
     app.drop_at(at);
     settle(&mut app);
     let after = app.state().scenario().clone();
-    assert!(after.platform.mass != before.platform.mass && after.damping.alpha != before.damping.alpha);
+    assert!(after.platform.mass != before.platform.mass && after.gravity != before.gravity);
     undo(&mut app);
     assert_eq!(*app.state().scenario(), before, "one step");
 }

@@ -177,8 +177,10 @@ function showForm() {
     const cables = scenario.cables.map((_, i) => {
         const path = `cables[${i}]`;
         const remove = element("button", { type: "button", "data-remove": i }, `Remove cable ${i + 1}`);
+        const name = scenario.cables[i].cable ? `Cable ${i + 1} as all others` : `Own material for cable ${i + 1}`;
+        const material = element("button", { type: "button", "data-material": i }, name);
         return element("fieldset", {}, element("legend", {}, `Cable ${i + 1}`), grid(leaves(path)),
-            errorAt(path), errorAt(`${path}.anchor`), element("p", {}, remove));
+            errorAt(path), errorAt(`${path}.anchor`), element("p", {}, material, " ", remove));
     });
     const add = element("button", { type: "button", id: "add" }, "Add a cable");
     const list = element("section", { "aria-labelledby": id("cables") },
@@ -201,6 +203,7 @@ $("fields").addEventListener("input", ({ target }) => {
 $("fields").addEventListener("click", ({ target }) => {
     if (target.id === "add") addCable();
     else if (target.dataset.remove) removeCable(Number(target.dataset.remove));
+    else if (target.dataset.material) changeMaterial(Number(target.dataset.material));
 });
 
 /** Another law for the tension, which begins with today's tension where that is known. */
@@ -222,6 +225,17 @@ function addCable() {
     scenario.cables.push({ anchor, tension: { constant: 50 } });
     showForm();
     $(id(`cables[${scenario.cables.length - 1}].anchor[0]`)).focus();
+    edited();
+}
+
+/** Gives a cable a material of its own, which is at first the common one, or takes it away. */
+function changeMaterial(cable) {
+    const it = scenario.cables[cable];
+    if (it.cable) delete it.cable;
+    else it.cable = { ...scenario.cable };
+    delete scenario.schema; // the first one knows no own material, and one without a schema may have it
+    showForm();
+    document.querySelector(`[data-material="${cable}"]`).focus();
     edited();
 }
 

@@ -15,7 +15,7 @@ use super::theme::{self, Tokens};
 use super::{Command, Tautline, canvas, fields, number, view_link};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
-use crate::scenario::{Parameter, Scenario, link, table};
+use crate::scenario::{Parameter, link, table};
 
 /// Said where there is nothing to save.
 const NOTHING: &str = "There is nothing to save yet: it is not on show, or still being computed.";
@@ -212,13 +212,13 @@ impl Tautline {
             Ok(cables) => document.scenario.cables = cables,
             Err(reason) => return self.complain(reason),
         }
-        let wanted = document.scenario.clone();
+        let wanted = document.scenario.cables.clone();
         self.history.step(&self.present.document);
         self.edit(document);
         self.history.step(&self.present.document);
-        if self.present.document.scenario == wanted {
+        if self.present.document.scenario.cables == wanted {
             self.notices.succeed(About::Action);
-            self.notices.tell(format!("{} cables are taken from the table.", wanted.cables.len()));
+            self.notices.tell(format!("{} cables are taken from the table.", wanted.len()));
         }
     }
 
@@ -283,8 +283,9 @@ impl Tautline {
         let (title, caption) = (plots::picture_title(plot, facts), picture::caption(facts));
         let size = plots::picture_size(plot, facts);
         let frame = Frame { margins: true, ground: self.tokens().panel, ..self.frame(&title, &caption, size) };
+        let mut state = self.state.clone();
         let picture = Picture::new(frame, &mut |ui| {
-            plots::picture(plot, &self.context, chart, self.state.campbell_hz, ui, facts);
+            plots::picture(plot, &self.context, chart, &mut state, ui, facts);
         });
         Some(picture.file(format))
     }
@@ -295,7 +296,9 @@ impl Tautline {
         let (title, caption) = (picture::name(facts), picture::caption(facts));
         let on_screen = self.screen.regions.canvas.size();
         let shape = if on_screen.min_elem() > 0.0 { on_screen.y / on_screen.x } else { 0.5 };
-        let size = Vec2::new(picture::PLOT.x, (picture::PLOT.x * shape).clamp(350.0, 1000.0) + 150.0);
+        // Whole points, so that the pixels are exactly two to each.
+        let height = (picture::PLOT.x * shape).clamp(350.0, 1000.0).round() + 150.0;
+        let size = Vec2::new(picture::PLOT.x, height);
         let mut runtime = self.screen.canvas.for_picture();
         let picture = Picture::new(self.frame(&title, &caption, size), &mut |ui| {
             canvas::picture(&mut runtime, &self.state, &self.session, ui, facts);

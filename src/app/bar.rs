@@ -48,8 +48,9 @@ pub fn ui(
     let inner = rect.shrink2(Vec2::new(8.0, 0.0));
     let touch = form.is_touch();
     let height = if touch { 44.0 } else { 28.0 };
-    // Words beside the pictures where there is room for them.
+    // Where there is room for them, these are buttons of their own, and have words beside their pictures.
     let words = rect.width() >= 760.0;
+    let named = rect.width() >= 880.0;
     // What is at the right comes first: the name takes the room that is left.
     let right = UiBuilder::new().max_rect(inner).layout(Layout::right_to_left(Align::Center));
     let left = ui.scope_builder(right.id_salt("right"), |ui| {
@@ -62,7 +63,7 @@ pub fn ui(
         if form != Form::Frame {
             more(state, session, ui, height, (form, !words, possible), facts.document, commands);
         }
-        let text = |text| if words { text } else { "" };
+        let text = |text| if named { text } else { "" };
         if wide {
             let button = IconButton::new(Icon::Present, "Present").text(text("Present")).height(height);
             if button.show(ui).explained("Robot, answer and one plot, large (F)").clicked() {
@@ -72,7 +73,7 @@ pub fn ui(
         if words {
             let button = IconButton::new(Icon::Share, "Share").text(text("Share")).height(height).show(ui);
             share(&button.explained("A link to this robot as you see it"), commands);
-            designs(&mut session.windows.designs, ui, height, commands);
+            designs(&mut session.windows.designs, ui, height, text("Keep"), commands);
         }
         let button = IconButton::new(Icon::Map, "Map").text(text("Map")).height(height).selected(state.map.on);
         let meaning = "Colours the workspace under the robot, point by point. A click on it moves the platform. (M)";
@@ -138,14 +139,14 @@ fn step(ui: &mut Ui, icon: Icon, name: &str, height: f32, can: bool, command: Co
 }
 
 /// What keeps the present design, and what opens the window of all that are kept.
-fn designs(open: &mut bool, ui: &mut Ui, height: f32, commands: &mut Vec<Command>) {
+fn designs(open: &mut bool, ui: &mut Ui, height: f32, text: &str, commands: &mut Vec<Command>) {
     // From the right to the left.
     let button = IconButton::new(Icon::ChevronDown, "Designs").height(height).selected(*open).show(ui);
     if button.explained("The designs that are kept, and what differs between them").clicked() {
         *open = !*open;
     }
     let meaning = "Keeps this design as A to D: answers and plots then show the difference to it";
-    let button = IconButton::new(Icon::Pin, "Keep").text("Keep").height(height).show(ui);
+    let button = IconButton::new(Icon::Pin, "Keep").text(text).height(height).show(ui);
     if button.explained(meaning).clicked() {
         commands.push(Command::Design(Action::Keep));
     }

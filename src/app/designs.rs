@@ -148,8 +148,8 @@ impl Design {
         let idle = idle && self.shown && self.is_complete() && !self.answers.pose_failed();
         let plots = if idle { plots } else { &[] };
         let mut requests = studies::wanted(&self.document.scenario, state, plots, critical, idle);
-        // The map and the border of the feasible region show one design.
-        requests.retain(|request| !matches!(request.topic(), Topic::Map | Topic::Border));
+        // These show one design.
+        requests.retain(|request| !matches!(request.topic(), Topic::Map | Topic::Border | Topic::Reach));
         self.studies.want(requests)
     }
 }

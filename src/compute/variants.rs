@@ -55,7 +55,7 @@ mod tests {
         };
         let two = variants(&["cable.youngs_modulus", "motion.direction"]).expect("two numbers");
         let (robot, motion) = two.at(&[3e8, 0.0]).expect("physical");
-        assert!((robot.youngs_modulus - 3e8).abs() < 1e-3 && (motion.direction().x - 1.0).abs() < 1e-15);
+        assert!((robot.material.youngs_modulus - 3e8).abs() < 1e-3 && (motion.direction().x - 1.0).abs() < 1e-15);
         assert!(two.at(&[-1.0, 0.0]).is_none(), "a negative modulus");
         assert!(variants(&["cable.colour"]).is_err_and(|reason| reason.starts_with("cable.colour: ")));
         assert!(variants(&["gravity", "gravity"]).is_err_and(|reason| reason.contains("twice")));

@@ -20,12 +20,12 @@
 use serde::Serialize;
 
 use crate::robot::{Fault, Faults};
+use crate::scenario::Scenario;
 use crate::scenario::layout::compact;
 use crate::scenario::link::{self, LinkError};
 use crate::scenario::presets::{self, PRESETS};
 use crate::scenario::reader::{Document, Object, Value};
 use crate::scenario::report::{DEFAULT_MAX_SPEED, Report};
-use crate::scenario::Scenario;
 use crate::stability::{ALLOWED_LIMIT, is_limit};
 
 const FIELDS: [&str; 7] = ["id", "analyze", "max_speed", "encode", "decode", "example", "examples"];

@@ -35,7 +35,7 @@ const WAVES: f64 = 2.0;
 /// - the mass μ L of a cable is more than the platform's
 /// - the strain λ − 1 at the largest tension of a cable is more than 2 %, with N(λ) of docs/theory.md, section 4
 /// - the largest tension is more than a rope of that cross-section bears: the rope's own breaking force where E, A and μ
-///   are a [`Rope`]'s, else a typical strength for this E, see [`strength`]
+///   are a [`Rope`]'s, else a typical strength for this E
 /// - waves √(T/μ), T the least tension of a cable, run less than twice as fast as the platform moves
 ///
 /// Sources of what is usual: docs/ropes.md.

@@ -23,7 +23,7 @@ async function scrollTo(page, label, role) {
         const there = await isThere(page, label, role, CONTROLS);
         if (there) {
             const { rect: [, top, , tall] } = await find(page, label, role, CONTROLS);
-            if (top > y && top + tall < y + height) return;
+            if (top >= y - 1 && top + tall <= y + height + 1) return;
         }
         await page.mouse.wheel(0, turns < 20 ? 120 : -240);
         await page.waitForTimeout(150);
@@ -48,6 +48,15 @@ async function paste(page, text) {
     await page.keyboard.press("ControlOrMeta+v");
 }
 
+/** Takes so many steps back, one after the other: two presses within one frame are one. */
+async function undo(page, steps) {
+    for (let i = 0; i < steps; i++) {
+        const before = JSON.stringify(await scenario(page));
+        await page.keyboard.press("Control+z");
+        await page.waitForFunction((before) => JSON.stringify(window.tautline.scenario()) !== before, before);
+    }
+}
+
 const CLIPBOARD = { permissions: ["clipboard-read", "clipboard-write"] };
 const TABLE = [
     "x\ty\ttension", "-9,5\t5\tbalances", "9,5\t5\tbalances", "-9,5\t-5\t70", "9,5\t-5\t80", "0\t-6\t60", "",
@@ -67,8 +76,7 @@ browserTest("a rope sets E, A and μ at once and is known by them", async ({ ope
     await valueOf(page, "Construction", "combobox", (value) => value === "steel 6×19", CONTROLS);
     await screenshot(page, "rope");
     await clickCanvas(page);
-    await page.keyboard.press("Control+z");
-    await page.keyboard.press("Control+z");
+    await undo(page, 2);
     await changed(page, () => window.tautline.scenario().cable.youngs_modulus === 125e6);
 }, { timeout: 120_000 });
 
@@ -92,7 +100,7 @@ browserTest("cables come from a spreadsheet and go to one", async ({ open }) => 
     await paste(page, TABLE.replace("-6", "six"));
     await page.waitForFunction(() => /Row 6, column y: "six" must be a number in m/.test(document.getElementById("tautline-notice").textContent));
     assert.equal((await scenario(page)).cables[4].tension.constant, 65);
-    for (let steps = 0; steps < 2; steps++) await page.keyboard.press("Control+z");
+    await undo(page, 2);
     assert.deepEqual(await changed(page, () => window.tautline.scenario().cables.length === 4), before);
 }, { timeout: 120_000 });
 

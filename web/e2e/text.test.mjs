@@ -181,6 +181,22 @@ browserTest("a value that is not allowed is told with what is, beside its field 
     assert.ok(Math.abs(analysis.critical.speed - await criticalSpeed(page)) <= 1e-9);
 }, PATIENT);
 
+browserTest("a cable gets a material of its own and loses it", async ({ open }) => {
+    const page = await openText(open);
+    const before = await criticalSpeed(page);
+    await page.getByRole("button", { name: "Own material for cable 4" }).click();
+    await cable(page, 4).getByLabel("Mass per length μ in kg/m").fill("0.5");
+    await answered(page);
+    const after = await criticalSpeed(page);
+    assert.ok(Math.abs(after - before) > 0.01, `${before} and ${after}`);
+    const { analysis, scenario } = await inTheApp(open, await hashOf(page));
+    assert.equal(scenario.cables[3].cable.mass_per_length, 0.5);
+    assert.ok(Math.abs(analysis.critical.speed - after) <= 1e-9);
+    await page.getByRole("button", { name: "Cable 4 as all others" }).click();
+    await answered(page);
+    assert.equal(await criticalSpeed(page), before);
+}, PATIENT);
+
 browserTest("cables come and go, and their tensions change their kind", async ({ open }) => {
     const page = await openText(open);
     await page.getByRole("button", { name: "Add a cable" }).click();

@@ -39,7 +39,7 @@ for (const colorScheme of ["light", "dark"]) {
         await open(page);
         await vary(page, "Number to vary", "Platform mass m");
         await finished(page);
-        const { label } = await find(page, PLOT, "image");
+        const { label } = await find(page, PLOT, "img");
         assert.match(label, /Platform mass m from 1 kg to 4 kg/);
         assert.match(label, /Critical from [\d.]+ m\/s at/);
         await page.mouse.move(640, 20);
@@ -47,7 +47,7 @@ for (const colorScheme of ["light", "dark"]) {
 
         // A click sets the value, and undo takes it back in one step.
         const before = await scenario(page);
-        const { mouse, at: [x, y] } = await pointAt(page, PLOT, "image");
+        const { mouse, at: [x, y] } = await pointAt(page, PLOT, "img");
         await mouse.click(x + 40, y - 20);
         await settled(page, (mass) => window.tautline.scenario().platform.mass !== mass, before.platform.mass);
         const { revision } = (await studies(page)).what_if;
@@ -60,10 +60,10 @@ for (const colorScheme of ["light", "dark"]) {
         // The ends can be typed; Fit takes them back.
         await type(page, "to", "10");
         await finished(page);
-        await find(page, /^What if: Platform mass m from 1 kg to 10 kg/, "image");
+        await find(page, /^What if: Platform mass m from 1 kg to 10 kg/, "img");
         await press(page, "Fit What if", "button");
         await finished(page);
-        await find(page, /^What if: Platform mass m from 1 kg to 4 kg/, "image");
+        await find(page, /^What if: Platform mass m from 1 kg to 4 kg/, "img");
     }, { timeout: 180_000 });
 }
 
@@ -100,19 +100,19 @@ browserTest("two numbers make a map, and a click sets both in one step", async (
     await started(page);
     await open(page);
     await vary(page, "Number to vary", "Platform mass m");
-    await vary(page, "Second number to vary", "Mass damping α");
+    await vary(page, "Second number to vary", "Gravity g");
     await finished(page);
-    const { label } = await find(page, PLOT, "image");
-    assert.match(label, /the critical speed over Platform mass m from .* and Mass damping α from /);
+    const { label } = await find(page, PLOT, "img");
+    assert.match(label, /the critical speed over Platform mass m from .* and Gravity g from /);
     assert.equal((await studies(page)).what_if.total, 31 * 21);
     await page.mouse.move(640, 20);
     await screenshot(page, "what if map");
     const before = await scenario(page);
-    const { mouse, at: [x, y] } = await pointAt(page, PLOT, "image");
+    const { mouse, at: [x, y] } = await pointAt(page, PLOT, "img");
     await mouse.click(x + 30, y - 25);
     await settled(page, (mass) => window.tautline.scenario().platform.mass !== mass, before.platform.mass);
     const after = await scenario(page);
-    assert.notEqual(after.damping.alpha, before.damping.alpha);
+    assert.notEqual(after.gravity, before.gravity);
     await page.keyboard.press("Control+z");
     await settled(page, (mass) => window.tautline.scenario().platform.mass === mass, before.platform.mass);
     assert.deepEqual(await scenario(page), before);
@@ -123,7 +123,7 @@ browserTest("from what to change to what if, also on a phone", async ({ open: st
     await started(page);
     await press(page, "Plots", "tab");
     await openPlot(page, "What to change", { within: "Sheet" });
-    await press(page, "What if m, platform", "button");
+    await press(page, "What if μ, cable mass", "button");
     await finished(page);
     await find(page, "Number to vary", "combobox");
     for (const { label, rect: [x, , width] } of (await layout(page)).filter(({ role }) => role === "combobox")) {

@@ -84,9 +84,6 @@ pub fn fit(ui: &mut Ui, room: Rect, layout: Layout, named: bool, height: f32) ->
 
 #[cfg(test)]
 mod tests {
-    // Round numbers.
-    #![expect(clippy::float_cmp)]
-
     use super::*;
 
     #[test]

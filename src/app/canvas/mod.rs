@@ -57,6 +57,7 @@ const ROOM: f32 = 8.0;
 
 /// How much of the canvas is free.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::struct_excessive_bools)] // They know nothing of each other.
 pub struct Space {
     /// How far something else reaches into the canvas from its sides, in points: the workspace keeps clear of that.
     pub insets: Insets,

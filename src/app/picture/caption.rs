@@ -39,7 +39,8 @@ pub fn caption(facts: Facts<'_>) -> String {
         Linearisation::Tangent => "tangent",
     };
     text.push_str(&critical(facts));
-    text.push_str(&format!("; {model} stiffness, n = {} elements per cable", scenario.elements_per_cable));
+    let elements = scenario.elements_per_cable.to_string();
+    text.push_str(&["; ", model, " stiffness, n = ", &elements, " elements per cable"].concat());
     text.push_str(concat!(". Tautline ", env!("CARGO_PKG_VERSION")));
     text
 }

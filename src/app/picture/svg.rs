@@ -137,7 +137,7 @@ struct Drawing<'a> {
 impl Drawing<'_> {
     fn add(&mut self, parts: &[&str]) {
         self.end_lines();
-        parts.iter().for_each(|part| self.out.push_str(part));
+        self.out.push_str(&parts.concat());
     }
 
     /// Writes the lines that are still to be written.

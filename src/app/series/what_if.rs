@@ -112,6 +112,7 @@ mod tests {
         Against::new(&StudyResults { request, places, version: (1, 1) }).expect("one number")
     }
 
+    #[expect(clippy::unnecessary_wraps)] // It stands in lists of verdicts that may be missing.
     fn critical(speed: f64) -> Option<Verdict> {
         let eigenvalue = Complex::new(0.0, 2.0);
         Some(Verdict::Critical(Critical { speed, eigenvalue, kind: Instability::Flutter, cable: 0 }))

@@ -65,7 +65,8 @@ mod tests {
     use crate::scenario::presets;
 
     fn view(numbers: &[(Parameter, [f64; 2])]) -> WhatIfView {
-        let mut view = WhatIfView { number: numbers.first().map(|(number, _)| *number), ..WhatIfView::default() };
+        let mut view = WhatIfView::default();
+        view.number = numbers.first().map(|(number, _)| *number);
         view.against = numbers.get(1).map(|(number, _)| *number);
         for (number, ends) in numbers {
             view.set_range(*number, Range { ends: *ends, own: false });

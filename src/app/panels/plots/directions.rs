@@ -50,7 +50,10 @@ pub fn ui(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Co
         let response = ui.allocate_rect(room.with_max_x(beside.left() - 8.0), Sense::click_and_drag());
         diagram.ui(place, ui, &response);
         ui.scope_builder(eframe::egui::UiBuilder::new().max_rect(beside), |ui| {
-            ui.label("Critical speed by direction, m/s");
+            // A picture has it as its title.
+            if place.slot != Slot::Picture {
+                ui.label("Critical speed by direction, m/s");
+            }
             diagram.words(place, ui, commands);
         });
         return;

@@ -101,14 +101,13 @@ pub fn ui(
 }
 
 /// Draws a plot for a picture: the part of it that is on show in the `chart` of this name on the `screen`.
-pub fn picture(plot: Plot, screen: &Context, chart: Id, highest: f64, ui: &mut Ui, facts: Facts<'_>) {
+pub fn picture(plot: Plot, screen: &Context, chart: Id, state: &mut UiState, ui: &mut Ui, facts: Facts<'_>) {
     let place = PlotPlace { slot: Slot::Picture, plot, wheel: false };
     // The speed diagram has a second chart.
     for (there, here) in [(chart, place.id()), (chart.with("growth"), place.id().with("growth"))] {
         VisibleRange::of(screen, there).show(ui.ctx(), here);
     }
-    let mut highest = highest;
-    explained(place, None, &mut highest, ui, facts, &mut Vec::new());
+    explained(place, None, state, ui, facts, &mut Vec::new());
 }
 
 /// The title of a plot's picture.
@@ -123,13 +122,15 @@ pub fn picture_title(plot: Plot, facts: Facts<'_>) -> String {
         Plot::Campbell => "Frequencies and growth rates of all modes against speed".into(),
         Plot::Mesh => "Critical speed against the mesh".into(),
         Plot::Sensitivities => "What to change for another critical speed".into(),
+        Plot::WhatIf => "Critical speed and frequency against a number of the robot".into(),
         _ => plot.title().into(),
     }
 }
 
 /// The size of a plot's picture, in points: tables are as high as they are long.
 pub fn picture_size(plot: Plot, facts: Facts<'_>) -> Vec2 {
-    const ROW: f32 = 26.0;
+    // A row of the table of modes with the space below it.
+    const ROW: f32 = 30.0;
     let rows = match plot {
         Plot::Modes => common::with_modes(facts.answers).map_or(0, |pose| pose.modes.len()),
         Plot::Sensitivities => facts.answers.sensitivities().map_or(0, |(found, _)| found.as_ref().map_or(0, Vec::len)),
@@ -157,6 +158,8 @@ fn explained(
         galley.size().y + ui.spacing().item_spacing.y
     });
     let room = Vec2::new(size.x, (size.y - below).max(LEAST));
+    // Where not all is in sight, the wheel scrolls.
+    let place = PlotPlace { wheel: place.wheel && size.y - below >= LEAST, ..place };
     ui.allocate_ui_with_layout(room, Layout::top_down(Align::Min), |ui| {
         ui.set_min_size(room);
         match place.plot {

@@ -4,7 +4,8 @@ use eframe::egui::{Align2, CursorIcon, Pos2, Rect, Response, Role, Sense, Stroke
 
 use super::super::axis::{Axis, signed};
 use super::super::chart::{self, Chart, Dash, Titles, inner};
-use super::super::common::{self, PlotPlace};
+use super::super::common::{self, PlotPlace, Slot};
+use super::drawing;
 use super::numbers::{Number, name};
 use crate::app::command::Command;
 use crate::app::digits;
@@ -45,8 +46,11 @@ pub fn ui(
     // A line in any case, so that nothing moves when it is known.
     let waits = if shown.current { "No critical speed is known here." } else { "Being computed." };
     common::say(ui, drawing.finding().as_deref().unwrap_or(waits));
-    let response = super::room(ui);
+    let response = drawing::room(ui);
     let x = drawing.ui(ui, &response, commands);
+    if place.slot == Slot::Picture {
+        return;
+    }
     handles(place, view, &number, &x, ui, &response, drag);
 }
 
@@ -83,7 +87,7 @@ impl Drawing<'_> {
                 chart.upright(number.shown(against.points[i].0), stroke, Dash::Solid);
             }
         }
-        super::now(&mut speeds, number);
+        drawing::now(&mut speeds, number);
         if let Some(hertz) = &mut hertz {
             let at = number.shown(number.value);
             hertz.upright(at, Stroke::new(1.5, hertz.tokens.accent), Dash::Dashed);
@@ -114,9 +118,13 @@ impl Drawing<'_> {
         let Self { against, number, current, facts } = self;
         let points =
             |run: &[[f64; 2]]| -> Vec<[f64; 2]> { run.iter().map(|&[at, speed]| [number.shown(at), speed]).collect() };
-        let before = facts.pinned.and_then(|pinned| Against::new(pinned.study(Topic::WhatIf)?));
+        let designs = facts.designs.shown();
+        let before: Vec<_> = designs
+            .filter_map(|(letter, design)| Some((letter, Against::new(design.study(Topic::WhatIf)?)?)))
+            .collect();
         let all = |against: &Against| against.extremes().map_or(0.0, |[_, highest]| highest[1]);
-        let top = 1.14 * all(against).max(before.as_ref().map_or(0.0, all)).max(1e-3);
+        let highest = before.iter().map(|(_, before)| all(before)).fold(all(against), f64::max);
+        let top = 1.14 * highest.max(1e-3);
         let mut chart = Chart::new(ui, outer, rect, [x, Axis::linear([0.0, top], [rect.bottom(), rect.top()])]);
         let tokens = chart.tokens;
         let shade = |colour| if *current { colour } else { tokens.mute };
@@ -125,10 +133,10 @@ impl Drawing<'_> {
             chart.area(&points(&run), shade(tokens.stable).gamma_multiply(0.09));
         }
         chart.grid(titles);
-        if let Some(before) = before {
-            let colour = theme::pinned(ui.visuals());
+        for (letter, before) in &before {
+            let stroke = Stroke::new(1.5, letter.colour(ui.visuals()));
             for run in before.speeds() {
-                chart.curve(&points(&run), Stroke::new(1.5, colour), Dash::Dashed);
+                chart.curve(&points(&run), stroke, Dash::Design(*letter));
             }
         }
         for run in against.speeds() {

@@ -7,6 +7,7 @@ use super::super::axis::{Axis, signed};
 use super::super::chart::{Chart, Dash, Symbol, Titles, inner, quad};
 use super::super::common;
 use super::curve::reading;
+use super::drawing;
 use super::numbers::{Number, name};
 use crate::app::canvas::map::{Cell, Picture, colour, corners, hatching};
 use crate::app::command::Command;
@@ -36,7 +37,7 @@ pub fn ui(numbers: [&Number; 2], shown: Shown<'_>, ui: &mut Ui, facts: Facts<'_>
         ui,
         finding.as_deref().unwrap_or(if shown.current { "No critical speed here." } else { "Being computed." }),
     );
-    let response = super::room(ui);
+    let response = drawing::room(ui);
     let outer = response.rect;
     let [title_x, title_y] = numbers.map(Number::title);
     let titles = Titles { x: Some(&title_x), x_unit: None, y: Some(&title_y) };

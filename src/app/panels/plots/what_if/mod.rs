@@ -1,14 +1,14 @@
 //! The critical speed against any number of the robot, or against two as a map, and the value at which it is the wanted one.
 
 mod curve;
+mod drawing;
 mod map;
 mod numbers;
 mod reach;
 
-use eframe::egui::{Pos2, Response, Sense, Stroke, Ui, Vec2};
+use eframe::egui::Ui;
 
-use super::chart::{Chart, Dash};
-use super::common::{self, PlotPlace};
+use super::common::{self, PlotPlace, Slot};
 use super::range::VisibleRange;
 use super::sensitivities;
 use crate::app::command::Command;
@@ -27,14 +27,14 @@ pub const MEANING: &str = "One number of the robot takes other values, and all o
     Against a second number the plot is a map, whose cross is the present pair. Find looks for the value, nearest to the \
     present one, at which the critical speed is the wanted one; a jump across it does not count.";
 
-/// So high the plot is at least, in points.
-const LEAST: f32 = 150.0;
-
 /// Draws the plot with what it is asked.
 pub fn ui(place: PlotPlace, view: &mut WhatIfView, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     prepare(place, view, ui, facts);
     let scenario = &facts.document.scenario;
-    numbers::choose(view, ui, facts);
+    let controls = place.slot != Slot::Picture;
+    if controls {
+        numbers::choose(view, ui, facts);
+    }
     // Whatever has just been chosen has a range from the next frame on.
     let numbers: Option<Vec<Number>> = view
         .numbers(scenario)
@@ -43,7 +43,7 @@ pub fn ui(place: PlotPlace, view: &mut WhatIfView, ui: &mut Ui, facts: Facts<'_>
         .collect();
     let Some(numbers) = numbers else { return ui.ctx().request_repaint() };
     let Some(first) = numbers.first() else { return };
-    if numbers.len() == 1 && !first.field.integer {
+    if controls && numbers.len() == 1 && !first.field.integer {
         reach::ui(view, first, ui, facts, commands);
     }
     // A study of other numbers is no answer to this question.
@@ -100,22 +100,4 @@ fn most_sensitive(facts: Facts<'_>) -> Option<Parameter> {
     let (found, _) = facts.answers.sensitivities()?;
     let largest = found.as_ref().ok()?.iter().max_by(|a, b| a.speed.abs().total_cmp(&b.speed.abs()))?;
     Some(sensitivities::control(largest.knob, &facts.document.scenario))
-}
-
-/// Room for a chart, in all there is.
-fn room(ui: &mut Ui) -> Response {
-    let size = ui.available_size_before_wrap();
-    ui.allocate_exact_size(Vec2::new(size.x, size.y.max(LEAST)), Sense::click()).1
-}
-
-/// The line at the present value, with its word.
-fn now(chart: &mut Chart, number: &Number) {
-    let at = number.shown(number.value);
-    let accent = chart.tokens.accent;
-    if chart.rect.x_range().expand(0.5).contains(chart.x.pos(at)) {
-        chart.upright(at, Stroke::new(1.5, accent), Dash::Dashed);
-        let x = chart.x.pos(at);
-        let spots = [chart.rect.top() + 12.0, chart.rect.bottom() - 12.0].map(|y| Pos2::new(x, y));
-        chart.label(format!("now {}", number.text(number.value)), accent, &spots);
-    }
 }

@@ -200,24 +200,22 @@ fn ends(view: &mut WhatIfView, parameter: Parameter, ui: &mut Ui, facts: Facts<'
     let size = Vec2::new(END, ui.spacing().interact_size.y.max(24.0));
     let step = 0.005 * range.ends.map(|end| unit.shown(end)).into_iter().map(f64::abs).fold(0.0, f64::max);
     for (i, word) in ["from", "to"].into_iter().enumerate() {
-        ui.push_id((parameter.path(), word), |ui| {
-            let label = ui.weak(word);
-            let name = format!("{}, {word}", name(&field));
-            let control = Control { name: &name, unit, step: step.max(1e-9), size };
-            let mut answer = control.show(ui, range.ends[i]);
-            answer.response = answer.response.labelled_by(label.id);
-            let Some(value) = answer.value else { return };
-            let value = if field.integer { value.round() } else { value };
-            let mut ends = range.ends;
-            ends[i] = value;
-            if ends[0] < ends[1] && ends.iter().all(|end| end.is_finite()) {
-                view.set_range(parameter, Range { ends, own: true });
-            } else {
-                let other = unit.with_name(&number::brief(unit.shown(range.ends[1 - i])));
-                let way = if i == 0 { "less" } else { "more" };
-                answer.refuse(ui, format!("This end of the range must be {way} than {other}"));
-            }
-        });
+        let label = ui.weak(word);
+        let name = format!("{}, {word}", name(&field));
+        let control = Control { name: &name, unit, step: step.max(1e-9), size };
+        let mut answer = control.show(ui, range.ends[i]);
+        answer.response = answer.response.labelled_by(label.id);
+        let Some(value) = answer.value else { continue };
+        let value = if field.integer { value.round() } else { value };
+        let mut ends = range.ends;
+        ends[i] = value;
+        if ends[0] < ends[1] && ends.iter().all(|end| end.is_finite()) {
+            view.set_range(parameter, Range { ends, own: true });
+        } else {
+            let other = unit.with_name(&number::brief(unit.shown(range.ends[1 - i])));
+            let way = if i == 0 { "less" } else { "more" };
+            answer.refuse(ui, format!("This end of the range must be {way} than {other}"));
+        }
     }
 }
 
