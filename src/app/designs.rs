@@ -238,7 +238,7 @@ impl Designs {
         self.kept[letter as usize].as_mut().map(|design| design.studies.want(Vec::new())).unwrap_or_default()
     }
 
-    /// Takes in what the engine has found, and has it begin with the next design of which not all is known; it calls `wake`
+    /// Takes in what the engine has found, and has it begin with the next design that is not known whole; it calls `wake`
     /// when there is news.
     ///
     /// # Errors

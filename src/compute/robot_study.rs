@@ -20,7 +20,7 @@ const USUAL_CUBES: f64 = 1e6;
 const USUAL_COLUMNS: f64 = 20.0;
 /// A coarse map has every 4th point of every 4th row.
 const COARSE: usize = 4;
-/// A stretch in which a value is looked for takes about as long as so many critical speeds.
+/// How many critical speeds take as long as one stretch in which a value is looked for, about.
 const SPEEDS_OF_A_STRETCH: f64 = 8.0;
 /// The most numbers that a study may vary.
 const MOST_VARIED: usize = 2;

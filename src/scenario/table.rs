@@ -81,7 +81,7 @@ pub fn write(scenario: &Scenario) -> String {
     text
 }
 
-/// Whether a text is meant as a table: two lines or more, one of which has two numbers or more.
+/// Whether a text is meant as a table: it has two lines or more, and a line with two numbers or more.
 pub fn is_table(text: &str) -> bool {
     let Some((rows, decimal_comma)) = rows(text) else { return false };
     let numbers = |row: &Row| row.cells.iter().filter(|cell| number(cell, decimal_comma).is_some()).count();

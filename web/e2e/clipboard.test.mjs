@@ -23,7 +23,7 @@ async function offered(page, why) {
     return link;
 }
 
-/** What the user says to a wish of the page. */
+/** What the user says to a request of the page. */
 async function decide(page, name, setting) {
     const session = await page.context().newCDPSession(page);
     const { targetInfo: { browserContextId } } = await session.send("Target.getTargetInfo");

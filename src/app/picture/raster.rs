@@ -95,7 +95,7 @@ fn triangle(image: &mut ColorImage, corners: [Vertex; 3], texture: &ColorImage, 
     }
 }
 
-/// The pixels from one place to another, of so many.
+/// The pixels between two places of a row or column that has `most` of them.
 fn pixels(low: f32, high: f32, most: usize) -> std::ops::Range<usize> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // Negative numbers become 0.
     let [low, high] = [low.floor() as usize, high.ceil() as usize];

@@ -7,9 +7,9 @@ use eframe::egui::{Color32, ColorImage, Pos2, Rect, Shape, Stroke, Vec2};
 
 use super::raster::{self, Textures};
 
-/// Shapes with coordinates beyond this, in points, are left out: no picture reaches so far.
+/// The largest coordinate of a shape that is drawn, in points. No picture reaches farther.
 const FARTHEST: f32 = 1e6;
-/// Shapes may reach so far out of their clip without being cut, in points: they would not look different.
+/// How far a shape may reach out of its clip without being cut, in points. It looks the same.
 const SLACK: f32 = 0.5;
 
 /// Writes shapes as a drawing of this size, all in points. Coordinates have two decimals.

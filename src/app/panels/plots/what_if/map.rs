@@ -20,7 +20,7 @@ use crate::app::studies::Shown;
 use crate::robot::Vec2;
 use crate::study::{Answer, Grid, Study};
 
-/// About so many contours.
+/// About how many contours a map has.
 const CONTOURS: f64 = 6.0;
 
 /// Draws the map.

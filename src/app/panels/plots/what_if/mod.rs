@@ -95,7 +95,7 @@ fn prepare(place: PlotPlace, view: &mut WhatIfView, ui: &Ui, facts: Facts<'_>) {
     });
 }
 
-/// The number of which one percent changes the critical speed most, where that is known.
+/// The number with the largest sensitivity of the critical speed, where that is known.
 fn most_sensitive(facts: Facts<'_>) -> Option<Parameter> {
     let (found, _) = facts.answers.sensitivities()?;
     let largest = found.as_ref().ok()?.iter().max_by(|a, b| a.speed.abs().total_cmp(&b.speed.abs()))?;
