@@ -4,7 +4,7 @@
 //! equilibrium with sag, quasi-static motion, linearisation, eigenvalues. `docs/theory.md` has the
 //! equations; the code keeps its letters.
 //!
-//! The layers, each using only those before it: [`robot`], [`mechanics`], [`stability`], [`study`]
+//! The layers, each using only those before it: [`robot`], [`mechanics`], [`stability`], [`flight`], [`study`]
 //! (plain numerics: no interface, clock, files or threads), then the scenario file, the
 //! compute engine, and the interfaces on top.
 //!
@@ -18,6 +18,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod flight;
 pub mod mechanics;
 pub mod robot;
 pub mod stability;

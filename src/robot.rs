@@ -1,12 +1,18 @@
 //! The robot and its motion, validated: if a [`Robot`] exists, it is physical.
 
 mod bounding_box;
+mod path;
+mod profile;
+mod trajectory;
 
 use std::fmt;
 
 use nalgebra::Vector2;
 
 pub use bounding_box::BoundingBox;
+pub use path::{PathPoint, Side};
+pub use profile::Profile;
+pub use trajectory::{Moment, Trajectory};
 
 /// A point or a vector in the robot's plane, in metres or newtons: x to the right, y up.
 pub type Vec2 = Vector2<f64>;

@@ -5,20 +5,21 @@
 use std::path::{Path, PathBuf};
 
 /// Each room with those it may use.
-const ROOMS: [(&str, &[&str]); 9] = [
+const ROOMS: [(&str, &[&str]); 10] = [
     ("robot", &[]),
     ("mechanics", &["robot"]),
     ("stability", &["robot", "mechanics"]),
-    ("study", &["robot", "mechanics", "stability"]),
-    ("scenario", &["robot", "mechanics", "stability", "study"]),
-    ("js", &["robot", "mechanics", "stability", "study", "scenario"]),
-    ("compute", &["robot", "mechanics", "stability", "study", "scenario"]),
-    ("app", &["robot", "mechanics", "stability", "study", "scenario", "compute"]),
-    ("cli", &["robot", "mechanics", "stability", "study", "scenario", "compute"]),
+    ("flight", &["robot", "mechanics"]),
+    ("study", &["robot", "mechanics", "stability", "flight"]),
+    ("scenario", &["robot", "mechanics", "stability", "flight", "study"]),
+    ("js", &["robot", "mechanics", "stability", "flight", "study", "scenario"]),
+    ("compute", &["robot", "mechanics", "stability", "flight", "study", "scenario"]),
+    ("app", &["robot", "mechanics", "stability", "flight", "study", "scenario", "compute"]),
+    ("cli", &["robot", "mechanics", "stability", "flight", "study", "scenario", "compute"]),
 ];
 
 /// The rooms that are plain numerics: no interface, clock, files, threads or serialisation, and no way to panic.
-const NUMERICS: [&str; 4] = ["robot", "mechanics", "stability", "study"];
+const NUMERICS: [&str; 5] = ["robot", "mechanics", "stability", "flight", "study"];
 
 const FOREIGN: [&str; 16] = [
     "serde",

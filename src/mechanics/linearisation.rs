@@ -182,7 +182,8 @@ impl Vibration<Dual64> {
             let rates = LengthRates { first: length.v1, second: length.v2 };
             Chain { elements: Element::of_cable(robot, &parameters, i, length.re, rates, forces).collect() }
         };
-        let chains = paths(robot, &parameters, statics, direction)?.into_iter().enumerate().map(chain).collect();
+        let chains =
+            paths(robot, &parameters, statics, direction, Vec2::zeros())?.into_iter().enumerate().map(chain).collect();
         Some(Self::of_robot(robot, chains, Hub::point(parameters.platform_mass, robot.cables.len())))
     }
 }

@@ -16,7 +16,7 @@ pub use element::{Element, Matrices, Stiffness};
 pub use hub::{Hub, Joint};
 pub use linearisation::{Chain, Vibration};
 pub use material::Material;
-pub use motion::{LengthRates, length_rates};
+pub use motion::{LengthRates, length_rates, length_rates_on, node_rates};
 pub use parameters::Knob;
 pub use statics::{CableShape, Failure, Infeasible, Statics, StaticsError, solve};
 pub use waves::{WaveLimit, wave_limit};

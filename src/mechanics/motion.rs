@@ -27,22 +27,45 @@ pub struct LengthRates<D = f64> {
 ///
 /// Exact (implicit differentiation), not finite differences. `None` where the pose is singular.
 pub fn length_rates(robot: &Robot, statics: &Statics, direction: Vec2) -> Option<Vec<LengthRates>> {
-    let paths = paths::<f64>(robot, &Parameters::of(robot), statics, direction)?;
+    length_rates_on(robot, statics, direction, Vec2::zeros())
+}
+
+/// The same for a motion on a curve p with the derivatives `first` = p' and `second` = p''.
+///
+/// With the unit tangent and the curvature vector of a path these are L' and L'' in its arc length; with velocity and
+/// acceleration L̇ and L̈.
+pub fn length_rates_on(robot: &Robot, statics: &Statics, first: Vec2, second: Vec2) -> Option<Vec<LengthRates>> {
+    let paths = paths::<f64>(robot, &Parameters::of(robot), statics, first, second)?;
     let rates: Vec<_> = paths.iter().map(|[_, _, l]| LengthRates { first: l.v1, second: l.v2 }).collect();
     rates.iter().all(|r| r.first.is_finite() && r.second.is_finite()).then_some(rates)
 }
 
-/// (t₀, L) of every cable to second order along the motion, and to the order of `D` in the `parameters`. The real parts of
-/// the parameters are those of `robot`. `None` where the pose is singular.
+/// How every node moves quasi-statically: its first and second derivative, for p' = `first` and p'' = `second` as in
+/// [`length_rates_on`]; of the n + 1 nodes of each cable, from the platform to the winch. `None` where the pose is singular.
+pub fn node_rates(robot: &Robot, statics: &Statics, first: Vec2, second: Vec2) -> Option<Vec<Vec<[Vec2; 2]>>> {
+    let paths = paths::<f64>(robot, &Parameters::of(robot), statics, first, second)?;
+    let start = [0, 1].map(|j| Dual2::new(statics.position[j], first[j], second[j]));
+    let of_cable = |(i, [tx, ty, length]): (usize, &[Dual2<f64>; 3])| {
+        let rates = |r: [Dual2<f64>; 2]| [Vec2::new(r[0].v1, r[1].v1), Vec2::new(r[0].v2, r[1].v2)];
+        let mut nodes = vec![rates(start)];
+        CableModel::of(robot, i).walk(start, [*tx, *ty], *length, |_, r| nodes.push(rates(r)));
+        nodes
+    };
+    Some(paths.iter().enumerate().map(of_cable).collect())
+}
+
+/// (t₀, L) of every cable to second order along the motion with p' = `first` and p'' = `second`, and to the order of `D` in
+/// the `parameters`. The real parts of the parameters are those of `robot`. `None` where the pose is singular.
 pub(super) fn paths<D: DualNum<Primitive = f64> + Copy>(
     robot: &Robot,
     parameters: &Parameters<D>,
     statics: &Statics,
-    direction: Vec2,
+    first: Vec2,
+    second: Vec2,
 ) -> Option<Vec<[Dual2<D>; 3]>> {
     let fixed = statics.position;
     let parameters = parameters.map(Dual2::from_re);
-    let position = [0, 1].map(|j| Dual2::new(fixed[j].into(), direction[j].into(), 0.0.into()));
+    let position = [0, 1].map(|j| Dual2::new(fixed[j].into(), first[j].into(), second[j].into()));
     let mut paths = vec![[Dual2::from(0.0); 3]; robot.cables.len()];
     let mut load = [Dual2::from(0.0), parameters.platform_mass * parameters.gravity];
 

@@ -1,0 +1,8 @@
+//! Flights: the non-linear motion of platform and cables along a trajectory, what it does to vibrations, and how fast a path
+//! may be passed.
+//!
+//! All lengths are prescribed by the quasi-static motion. Every type here is for a point in the plane.
+
+mod record;
+
+pub use record::{CableSample, Flight, FlightError, FlightOptions, Gain, Sample, Slack};
