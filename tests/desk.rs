@@ -251,3 +251,47 @@ fn a_table_pasted_into_a_field_is_no_robot() {
     app.run_steps(3);
     assert_eq!(scenario(&app), paper());
 }
+
+/// Four clicks make a robot that can be analysed; a winch that is dragged or typed is where it was put; one step of undo
+/// brings the robot of before back.
+#[test]
+fn a_new_robot_starts_from_winch_points_that_are_clicked() {
+    let mut app = app();
+    app.get_by_role_and_label(Role::ComboBox, "Robot").click();
+    app.run_steps(5);
+    app.get_by_role_and_label(Role::Button, "New robot …").click();
+    app.run_steps(5);
+    let make = |app: &App| app.get_by_role_and_label(Role::Button, "Make the robot").accesskit_node().is_disabled();
+    assert!(make(&app), "there are no winches yet");
+    let area = app.get_by_role_and_label(Role::Canvas, "Area for winches").rect();
+    let inner = area.shrink(16.0);
+    // In metres of an area that is 20 m wide.
+    let at = |x: f32, y: f32| inner.center() + eframe::egui::vec2(x, -y) * (inner.width() / 20.0);
+    let click = |app: &mut App, at| {
+        app.hover_at(at);
+        app.step();
+        app.drag_at(at);
+        app.step();
+        app.drop_at(at);
+        app.run_steps(2);
+    };
+    for (x, y) in [(-8.0, 4.0), (8.0, 4.0), (-8.0, -4.0), (7.0, -4.0)] {
+        click(&mut app, at(x, y));
+    }
+    assert_eq!(app.get_by_role_and_label(Role::Canvas, "Area for winches").rect(), area, "it moves under the hand");
+    app.get_by_label("4 cables");
+    interface::drag(&mut app, at(7.0, -4.0), at(8.1, -4.1));
+    let cable_two = |app: &mut App, text: &str| {
+        type_value(app, "Winch 2 x", text);
+    };
+    cable_two(&mut app, "7.25 m");
+    press(&mut app, Role::Button, "Make the robot");
+    assert!(app.query_by_label("Area for winches").is_none(), "the window closes");
+    let made = scenario(&app);
+    let anchors: Vec<[f64; 2]> = made.cables.iter().map(|cable| cable.anchor).collect();
+    assert_eq!(anchors, [[-8.0, 4.0], [7.25, 4.0], [-8.0, -4.0], [8.0, -4.0]]);
+    assert_eq!(made.name.as_deref(), Some("My robot"));
+    assert_eq!(report(&app).feasible, Some(true));
+    undo(&mut app);
+    assert_eq!(scenario(&app), paper());
+}

@@ -100,7 +100,8 @@ pub fn ui(
         }
         if form != Form::Frame {
             let most = if form == Form::Low { 150.0 } else { 260.0 };
-            robot(ui, height, most, possible, facts.document, commands);
+            let new_robot = &mut session.windows.new_robot;
+            robot(new_robot, ui, height, (most, possible.reset), facts.document, commands);
         }
         if matches!(form, Form::Wide | Form::Middle) {
             ui.separator();
@@ -187,7 +188,14 @@ fn share(button: &Response, commands: &mut Vec<Command>) {
 }
 
 /// The robot's name; a click opens what can be done with the robot as a whole.
-fn robot(ui: &mut Ui, height: f32, most: f32, possible: Possible, document: &Document, commands: &mut Vec<Command>) {
+fn robot(
+    new_robot: &mut bool,
+    ui: &mut Ui,
+    height: f32,
+    (most, can_reset): (f32, bool),
+    document: &Document,
+    commands: &mut Vec<Command>,
+) {
     let name = name::shown(document.scenario.name.as_deref());
     let tokens = theme::tokens(ui.visuals());
     let room = (ui.available_width() - 28.0).clamp(40.0, most);
@@ -219,6 +227,9 @@ fn robot(ui: &mut Ui, height: f32, most: f32, possible: Possible, document: &Doc
                 ui.close();
             }
         }
+        if entry(ui, "New robot …", None, true) {
+            *new_robot = true;
+        }
         ui.separator();
         if entry(ui, "Open …", Some(OPEN), true) {
             commands.push(Command::Open);
@@ -226,7 +237,7 @@ fn robot(ui: &mut Ui, height: f32, most: f32, possible: Possible, document: &Doc
         if entry(ui, "Save scenario", Some(SAVE), true) {
             commands.push(Command::Save(Content::Scenario));
         }
-        if entry(ui, "Reset all values", None, possible.reset) {
+        if entry(ui, "Reset all values", None, can_reset) {
             commands.push(Command::Reset);
         }
     });

@@ -345,6 +345,8 @@ pub struct Windows {
     pub validation: bool,
     /// The designs that are kept, and what differs.
     pub designs: bool,
+    /// Where the winches of a new robot are put.
+    pub new_robot: bool,
 }
 
 impl Default for UiState {

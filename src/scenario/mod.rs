@@ -14,8 +14,10 @@ mod reader;
 pub mod report;
 pub mod ropes;
 pub mod table;
+mod winches;
 
 pub use json::Scenario;
 pub use parameter::Parameter;
 pub use presets::Preset;
 pub use report::Report;
+pub use winches::{NoRobot, from_winches};

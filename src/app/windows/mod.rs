@@ -1,6 +1,7 @@
 //! Windows over the page.
 
 mod designs;
+mod new_robot;
 mod settings;
 mod shortcuts;
 mod theory;
@@ -19,6 +20,8 @@ pub struct Runtime {
     theory: theory::Pictures,
     /// The checks of known numbers.
     pub validation: validation::Run,
+    /// The winches of a new robot.
+    new_robot: new_robot::Winches,
 }
 
 #[cfg(target_arch = "wasm32")]
@@ -45,6 +48,11 @@ pub fn ui(
         validation::ui(&mut runtime.validation, ui, commands);
     });
     window(context, "Designs", 620.0, &mut open.designs, |ui| designs::ui(ui, facts, commands));
+    let mut made = false;
+    window(context, "New robot", 640.0, &mut open.new_robot, |ui| {
+        made = new_robot::ui(&mut runtime.new_robot, ui, commands);
+    });
+    open.new_robot &= !made;
     if !open.validation {
         // Whoever opens it again wants to see it done again.
         runtime.validation = validation::Run::default();
@@ -54,13 +62,14 @@ pub fn ui(
 /// Closes the window that is in front of all others, if one is open.
 pub fn close_foremost(open: &mut Windows, context: &Context) -> bool {
     let layers: Vec<LayerId> = context.memory(|memory| memory.layer_ids().collect());
-    let Windows { settings, shortcuts, theory, validation, designs } = open;
+    let Windows { settings, shortcuts, theory, validation, designs, new_robot } = open;
     let all = [
         ("Settings", settings),
         ("Keyboard shortcuts", shortcuts),
         ("Theory", theory),
         ("Validation", validation),
         ("Designs", designs),
+        ("New robot", new_robot),
     ];
     let place = |title| layers.iter().position(|layer| *layer == LayerId::new(Order::Middle, id(title)));
     let foremost = all.into_iter().filter(|(_, open)| **open).max_by_key(|(title, _)| place(*title));
