@@ -22,6 +22,7 @@ pub mod flight;
 pub mod mechanics;
 pub mod robot;
 pub mod stability;
+pub mod steps;
 pub mod study;
 
 #[cfg(feature = "app")]

@@ -3,6 +3,7 @@
 mod bounding_box;
 mod path;
 mod profile;
+mod spline;
 mod trajectory;
 
 use std::fmt;
@@ -277,7 +278,7 @@ impl Fault {
     }
 
     /// The same for a number; very large and very small ones get an exponent instead of hundreds of digits.
-    fn number(path: impl Into<String>, value: f64, allowed: Allowed) -> Self {
+    pub fn number(path: impl Into<String>, value: f64, allowed: Allowed) -> Self {
         Self::new(path, format_args!("{value:?}"), allowed)
     }
 }

@@ -5,11 +5,12 @@
 use std::path::{Path, PathBuf};
 
 /// Each room with those it may use.
-const ROOMS: [(&str, &[&str]); 10] = [
+const ROOMS: [(&str, &[&str]); 11] = [
+    ("steps", &[]),
     ("robot", &[]),
     ("mechanics", &["robot"]),
-    ("stability", &["robot", "mechanics"]),
-    ("flight", &["robot", "mechanics"]),
+    ("stability", &["steps", "robot", "mechanics"]),
+    ("flight", &["steps", "robot", "mechanics"]),
     ("study", &["robot", "mechanics", "stability", "flight"]),
     ("scenario", &["robot", "mechanics", "stability", "flight", "study"]),
     ("js", &["robot", "mechanics", "stability", "flight", "study", "scenario"]),
@@ -19,7 +20,7 @@ const ROOMS: [(&str, &[&str]); 10] = [
 ];
 
 /// The rooms that are plain numerics: no interface, clock, files, threads or serialisation, and no way to panic.
-const NUMERICS: [&str; 5] = ["robot", "mechanics", "stability", "flight", "study"];
+const NUMERICS: [&str; 6] = ["steps", "robot", "mechanics", "stability", "flight", "study"];
 
 const FOREIGN: [&str; 16] = [
     "serde",

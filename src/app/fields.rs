@@ -58,6 +58,7 @@ impl Field {
             | Parameter::OwnYoungsModulus(cable)
             | Parameter::OwnArea(cable)
             | Parameter::OwnMassPerLength(cable) => format!("{} of cable {}", self.symbol, cable + 1),
+            Parameter::PathPoint(point, _) => format!("{} of point {}", self.symbol, point + 1),
             _ => self.symbol.into(),
         }
     }
@@ -95,6 +96,7 @@ pub fn law(cable: usize) -> [Parameter; 6] {
 pub const LAW: &str = "The tension at the platform's end follows the position: T = √((h0 + hx x + hy y)² + (v0 + vx x + \
                        vy y)²), as that of a force with a horizontal part and a vertical one.";
 const POSITION: &str = "The platform's position: x to the right, y up. Drag the platform on the canvas for the same.";
+const POINT: &str = "Where the path leads: x to the right, y up. Points can be dragged on the canvas.";
 const WINCH: &str = "Where the winch is: x to the right, y up. Once unlocked it can be dragged on the canvas.";
 
 impl Field {
@@ -199,6 +201,36 @@ impl Field {
             )),
             Parameter::Horizontal(_, i) => coefficient(["h0", "hx", "hy"][i.min(2)], i),
             Parameter::Vertical(_, i) => coefficient(["v0", "vx", "vy"][i.min(2)], i),
+            Parameter::PathSpeed => named(
+                "Peak speed",
+                "v",
+                "m/s",
+                [0.1, 20.0],
+                "The highest speed on the path; with a constant profile the only one. A short path may not reach it.",
+            ),
+            Parameter::PathAcceleration => named(
+                "Acceleration",
+                "a",
+                "m/s²",
+                [0.1, 30.0],
+                "How fast the speed changes, at most, in a trapezoid or an S-curve.",
+            ),
+            Parameter::PathJerk => logarithmic(named(
+                "Jerk",
+                "j",
+                "m/s³",
+                [0.1, 1000.0],
+                "How fast the acceleration changes in an S-curve.",
+            )),
+            Parameter::PathHold => named(
+                "Time after the stop",
+                "hold",
+                "s",
+                [0.0, 10.0],
+                "How long the flight goes on after the move, to see what is left of the vibration.",
+            ),
+            Parameter::PathPoint(_, 0) => named("Point", "x", "m", [low.x, high.x], POINT),
+            Parameter::PathPoint(..) => named("Point", "y", "m", [low.y, high.y], POINT),
         }
     }
 }
@@ -273,7 +305,7 @@ fn in_words(fault: &Fault, scenario: &Scenario, settings: Settings) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::presets;
+    use crate::scenario::{Path, presets};
 
     fn field(parameter: Parameter) -> Field {
         Field::of(parameter, BoundingBox { low: Vec2::zeros(), high: Vec2::zeros() })
@@ -285,6 +317,7 @@ mod tests {
             for parameter in [Parameter::OwnYoungsModulus(1), Parameter::OwnArea(1), Parameter::OwnMassPerLength(1)] {
                 parameter.give(&mut scenario, 1.0);
             }
+            scenario.path = Some(Path::new(vec![[0.1, 0.2]], 1.0));
             for field in Parameter::all(&scenario).into_iter().chain([Parameter::Direction]).map(field) {
                 let kind = field.unit().dimension.kind();
                 assert_eq!(kind == "a plain number", field.unit.is_empty(), "{}: {kind}", field.name);

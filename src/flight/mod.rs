@@ -3,6 +3,14 @@
 //!
 //! All lengths are prescribed by the quasi-static motion. Every type here is for a point in the plane.
 
+mod equations;
+mod fly;
+mod quasi_static;
 mod record;
+mod sdirk;
+#[cfg(test)]
+mod tests;
+mod watch;
 
+pub use fly::{fly, fly_in_steps};
 pub use record::{CableSample, Flight, FlightError, FlightOptions, Gain, Sample, Slack};

@@ -8,7 +8,7 @@ use crate::mechanics::Material;
 use crate::robot::{Robot, TensionLaw, Vec2};
 
 /// What a cable's shape depends on besides (t₀, L).
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct CableModel<D> {
     pub material: Material<D>,
     pub elements: usize,

@@ -48,6 +48,14 @@ impl<D: DualNum<Primitive = f64> + Copy> Material<D> {
         }
     }
 
+    /// N''(λ) in newtons.
+    pub fn curvature(&self, stretch: D) -> D {
+        match self.strain {
+            Strain::Green => self.axial_stiffness * 3.0 * stretch,
+            Strain::Engineering => D::from(0.0),
+        }
+    }
+
     /// The stretch λ ≥ 1 at the axial force N ≥ 0, the inverse of [`Self::force`].
     ///
     /// Exact to rounding, with all derivatives that `D` carries.
@@ -106,7 +114,8 @@ mod tests {
         let dual = Material { axial_stiffness: material.axial_stiffness.into(), strain: material.strain };
         let (stretch, first, second): (f64, f64, f64) = second_derivative(|n| dual.stretch(n), 170.0);
         let tangent = material.tangent(stretch);
-        let curvature = 3.0 * material.axial_stiffness * stretch; // N''(λ)
+        let curvature = material.curvature(stretch);
+        assert!((curvature / (3.0 * material.axial_stiffness * stretch) - 1.0).abs() < 1e-15);
         assert!((first * tangent - 1.0).abs() < 1e-13, "{first} × {tangent}");
         assert!((second * tangent.powi(3) / curvature + 1.0).abs() < 1e-12, "{second}");
     }

@@ -8,6 +8,7 @@ mod linearisation;
 mod material;
 mod motion;
 mod parameters;
+mod quasi_static;
 mod statics;
 mod waves;
 
@@ -18,5 +19,6 @@ pub use linearisation::{Chain, Vibration};
 pub use material::Material;
 pub use motion::{LengthRates, length_rates, length_rates_on, node_rates};
 pub use parameters::Knob;
+pub use quasi_static::{CableMotion, Follower};
 pub use statics::{CableShape, Failure, Infeasible, Statics, StaticsError, solve};
 pub use waves::{WaveLimit, wave_limit};

@@ -20,7 +20,7 @@ use crate::robot::{Robot, Vec2};
 /// The unknowns of the two cables that hold a point, (t₀, L) of each.
 pub(super) const POINT: usize = 6;
 /// The platform is "at" an anchor when nearer than this, in metres.
-const AT_ANCHOR: f64 = 1e-9;
+pub(super) const AT_ANCHOR: f64 = 1e-9;
 /// The equilibrium cables pull along one line when the sine of the angle between them is smaller than this: rounding of
 /// the directions, 4e-16, would leave less than four digits of their tensions.
 const ONE_LINE: f64 = 1e-12;
@@ -306,7 +306,7 @@ fn equilibrium(robot: &Robot, position: Vec2, load: Vec2) -> Result<Vec<(Vec2, f
 
 /// The tensions of the two straight cables without weight that hold a point: T₁ e₁ + T₂ e₂ = `load`, for the unit vectors
 /// `directions`.
-fn straight_tensions(robot: &Robot, directions: &[Vec2], load: Vec2) -> Result<[f64; 2], Infeasible> {
+pub(super) fn straight_tensions(robot: &Robot, directions: &[Vec2], load: Vec2) -> Result<[f64; 2], Infeasible> {
     let cables = [robot.equilibrium()[0], robot.equilibrium()[1]];
     let (e_a, e_b) = (directions[0], directions[1]);
     let sine = e_a.perp(&e_b);

@@ -1,5 +1,6 @@
 //! Where the platform goes: a path as a curve in the plane, by its arc length.
 
+use super::spline::{Ends, Spline};
 use crate::robot::Vec2;
 
 /// A point of a path.
@@ -35,6 +36,8 @@ pub(super) enum Leg {
         /// In m.
         length: f64,
     },
+    /// A cubic spline.
+    Smooth(Spline),
 }
 
 impl Leg {
@@ -44,18 +47,39 @@ impl Leg {
         Some(Self::Straight { start: from, tangent, length: (to - from).norm() })
     }
 
+    /// The cubic spline through the points, natural at its ends, by the lengths of the chords between them; `None` where two
+    /// successive ones coincide, or where it turns back at a point.
+    pub fn smooth(points: &[Vec2]) -> Option<Self> {
+        if let [from, to] = points {
+            return Self::straight(*from, *to);
+        }
+        let mut knots = vec![0.0];
+        for pair in points.windows(2) {
+            knots.push(knots.last().copied().unwrap_or_default() + (pair[1] - pair[0]).norm());
+        }
+        Spline::new(knots, points.to_vec(), Ends::Natural).filter(Spline::is_smooth).map(Self::Smooth)
+    }
+
     /// In m.
     pub fn length(&self) -> f64 {
         match self {
             Self::Straight { length, .. } => *length,
+            Self::Smooth(spline) => spline.length(),
         }
     }
 
     /// The point at arc length `s` (m).
     pub fn at(&self, s: f64) -> PathPoint {
-        match *self {
+        match self {
             Self::Straight { start, tangent, .. } => {
-                PathPoint { position: start + tangent * s, tangent, curvature: Vec2::zeros() }
+                PathPoint { position: start + tangent * s, tangent: *tangent, curvature: Vec2::zeros() }
+            }
+            Self::Smooth(spline) => {
+                let [position, first, second] = spline.at(spline.parameter(s));
+                let speed = first.norm();
+                let tangent = first / speed;
+                let curvature = (second - tangent * tangent.dot(&second)) / (speed * speed);
+                PathPoint { position, tangent, curvature }
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The scenario file: a robot, a pose and a motion as JSON. The durable format: what can be read today stays readable.
 //!
-//! There are two versions. `tautline/scenario/2` has all that `tautline/scenario/1` has, and in a cable the field `cable`
-//! with what that cable is made of. The version follows from what is used: a scenario without a field of the second
+//! There are two versions. `tautline/scenario/2` has all that `tautline/scenario/1` has, in a cable the field `cable` with
+//! what that cable is made of, and the field `path`. The version follows from what is used: a scenario without a field of the second
 //! version is written in the first, so that older programs read it too.
 //!
 //! ```
@@ -21,11 +21,12 @@ use crate::robot::{
     TensionLaw, Vec2,
 };
 use crate::scenario::layout;
+use crate::scenario::path::Path;
 use crate::scenario::reader::{Document, Object, Value};
 
 /// The name and the first version of the format.
 pub const SCHEMA: &str = "tautline/scenario/1";
-/// The second version, in which cables may have a material of their own.
+/// The second version, in which cables may have a material of their own, and the platform a path.
 pub const SCHEMA_2: &str = "tautline/scenario/2";
 /// Gravitational acceleration where a file gives none, in m/s².
 pub const DEFAULT_GRAVITY: f64 = 9.81;
@@ -53,6 +54,8 @@ pub struct Scenario {
     pub linearisation: Linearisation,
     /// Where the platform is and how it moves.
     pub motion: Motion,
+    /// Where it flies from there.
+    pub path: Option<Path>,
 }
 
 /// What the cables are made of.
@@ -137,13 +140,14 @@ impl Scenario {
             damping: robot.damping,
             linearisation: robot.linearisation,
             motion: motion.into(),
+            path: None,
         }
     }
 
     /// The robot and its motion.
     ///
     /// # Errors
-    /// All that is not physical, see [`Robot::new`] and [`robot::Motion::new`].
+    /// All that is not physical, see [`Robot::new`] and [`robot::Motion::new`], and all that is wrong with the path.
     pub fn to_robot(&self) -> Result<(Robot, robot::Motion), Faults> {
         let cable =
             |cable: &Cable| robot::Cable { anchor: cable.anchor.into(), tension: cable.tension, own: cable.cable };
@@ -157,17 +161,24 @@ impl Scenario {
             linearisation: self.linearisation,
         });
         let Motion { position, direction, speed } = self.motion;
-        match (robot, robot::Motion::new(position, direction, speed)) {
+        let both = match (robot, robot::Motion::new(position, direction, speed)) {
             (Ok(robot), Ok(motion)) => Ok((robot, motion)),
             (Err(of_robot), Err(of_motion)) => Err(of_robot.and(of_motion)),
             (Err(faults), _) | (_, Err(faults)) => Err(faults),
+        };
+        let of_path = self.path.as_ref().map_or_else(Vec::new, |path| path.faults(position));
+        match (both, Faults::check(of_path)) {
+            (both, Ok(())) => both,
+            (Ok(_), Err(of_path)) => Err(of_path),
+            (Err(faults), Err(of_path)) => Err(faults.and(of_path)),
         }
     }
 
-    /// The version of the format in which it is written: [`SCHEMA_2`] where a cable has something of its own, else
-    /// [`SCHEMA`].
+    /// The version of the format in which it is written: [`SCHEMA_2`] where a cable has something of its own or there is a
+    /// path, else [`SCHEMA`].
     pub fn schema(&self) -> &'static str {
-        if self.cables.iter().all(|cable| cable.cable.is_empty()) { SCHEMA } else { SCHEMA_2 }
+        let first = self.path.is_none() && self.cables.iter().all(|cable| cable.cable.is_empty());
+        if first { SCHEMA } else { SCHEMA_2 }
     }
 
     /// What a cable (0-based) is made of: its own values, and for the rest those that all cables share.
@@ -179,7 +190,7 @@ impl Scenario {
     /// Reads a scenario file of either version.
     ///
     /// `schema` and `name` may be missing; so may `gravity` ([`DEFAULT_GRAVITY`]), `strain` (Green) and `linearisation`
-    /// (secant), and of a cable `cable` with any of its fields. All other fields are required, and there are no others. A file
+    /// (secant), of a cable `cable` with any of its fields, and `path`, of which only `points` is required. All other fields are required, and there are no others. A file
     /// without `schema` may have the fields of either version; one that says it is of the first must have none of the second.
     ///
     /// # Errors
@@ -232,6 +243,7 @@ fn read(file: &Value) -> Scenario {
         "damping",
         "linearisation",
         "motion",
+        "path",
     ]);
     let versions = [(SCHEMA, Version::First), (SCHEMA_2, Version::Second)];
     let version = (file.optional("schema"))
@@ -242,6 +254,7 @@ fn read(file: &Value) -> Scenario {
     let damping = file.field("damping").object(&["alpha", "beta"]);
     let motion = file.field("motion").object(&["position", "direction", "speed"]);
     let linearisations = [("secant", Linearisation::Secant), ("tangent", Linearisation::Tangent)];
+    let speed = motion.field("speed").number();
     Scenario {
         name: file.optional("name").map(|name| name.text()),
         gravity: file.optional("gravity").map_or(DEFAULT_GRAVITY, |gravity| gravity.number()),
@@ -267,9 +280,23 @@ fn read(file: &Value) -> Scenario {
         motion: Motion {
             position: motion.field("position").vector(),
             direction: motion.field("direction").vector(),
-            speed: motion.field("speed").number(),
+            speed,
         },
+        path: file
+            .optional("path")
+            .filter(|path| !refused(path, version, "a file without path"))
+            .map(|path| Path::read(&path, speed)),
     }
+}
+
+/// Notes a fault where a file that says it is of the first version has a field of the second.
+fn refused(value: &Value, version: Version, allowed: &str) -> bool {
+    let refused = version == Version::First;
+    if refused {
+        let allowed = format!("{allowed} in {SCHEMA:?}; say {SCHEMA_2:?}, or leave it out");
+        value.refuse(&format!("a field of {SCHEMA_2}"), &allowed);
+    }
+    refused
 }
 
 /// The strain measure of a material, where it is given.
@@ -281,11 +308,7 @@ fn read_strain(material: &Object) -> Option<Strain> {
 /// What a cable has of its own; nothing where the field is missing.
 fn read_own(cable: &Object, version: Version) -> OwnMaterial {
     let Some(own) = cable.optional("cable") else { return OwnMaterial::default() };
-    if version == Version::First {
-        own.refuse(
-            &format!("a field of {SCHEMA_2}"),
-            &format!("the fields anchor, tension in {SCHEMA:?}; say {SCHEMA_2:?}, or leave it out"),
-        );
+    if refused(&own, version, "the fields anchor, tension") {
         return OwnMaterial::default();
     }
     let own = own.object(&MATERIAL);
@@ -347,6 +370,8 @@ struct ScenarioForm {
     #[serde(with = "LinearisationForm")]
     linearisation: Linearisation,
     motion: Motion,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    path: Option<Path>,
 }
 
 // The robot's own types know no JSON; these say how they are written.

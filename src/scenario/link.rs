@@ -3,18 +3,19 @@
 //! A link is a version mark and then bytes in base64url without padding. The bytes are the fields below in this order, and
 //! behind them the CRC-32 (that of zlib) of the version mark and all these bytes, lowest byte first.
 //!
-//! The version mark is `2` where a cable has a material of its own, and else `1`, so that older programs open all that they
-//! know.
+//! The version mark is `3` where there is a path, else `2` where a cable has a material of its own, and else `1`, so that older
+//! programs open all that they know.
 //!
 //! | field | form |
 //! |---|---|
 //! | flags | one byte: 1 a name is given, 2 engineering strain (else Green), 4 tangent stiffness (else secant), added up |
 //! | name, if given | its length in bytes as a whole number, then that many bytes of UTF-8 |
 //! | gravity, E, A, μ, platform's mass | five numbers |
-//! | cables | their count as a whole number; of each its anchor x, y: two numbers; then one byte: 0 equilibrium, 1 constant: a number, 2 by h₀, hₓ, `h_y`, v₀, vₓ, `v_y`: six numbers; then in version `2` alone what it has of its own |
+//! | cables | their count as a whole number; of each its anchor x, y: two numbers; then one byte: 0 equilibrium, 1 constant: a number, 2 by h₀, hₓ, `h_y`, v₀, vₓ, `v_y`: six numbers; then from version `2` on what it has of its own |
 //! | of its own | one byte: 1 E, 2 A, 4 μ, 8 Green strain, 16 engineering strain, added up; then of E, A and μ those that are given, in this order, a number each |
 //! | elements per cable | whole number |
 //! | α, β, position x, y, direction x, y, speed | seven numbers |
+//! | path, in version `3` | one byte: the profile (0 quintic, 1 trapezoid, 2 S-curve, 3 constant), 4 more where corners are smooth; the count of its points as a whole number, of each x, y: two numbers; speed, acceleration, jerk, hold: four numbers |
 //!
 //! - A *whole number* (below 2⁶⁴) is in LEB128: 7 bits a byte, the lowest first, the top bit set in all but the last.
 //! - A *number* is first a whole number w = 8 z + k. For k < 7 it is m · 10^(k − 5), where z is m in zigzag: 0, −1, 1, −2,
@@ -39,14 +40,16 @@ use base64::{Engine as _, prelude::BASE64_URL_SAFE_NO_PAD};
 
 use crate::robot::{Damping, Faults, Linearisation, OwnMaterial, Strain, TensionLaw};
 use crate::scenario::json::{Cable, Material, Motion, Platform, SCHEMA, Scenario};
+use crate::scenario::path::{Corners, Path, ProfileKind};
 
 /// What stands between the page's address and the text of [`encode`].
 pub const MARK: &str = "#s=";
 /// The first character of a link of the first version.
 const FIRST: char = '1';
-/// That of the second version, in which cables may have a material of their own. Later versions begin with the digits after
-/// it.
+/// That of the second version, in which cables may have a material of their own.
 const SECOND: char = '2';
+/// That of the third version, in which there is a path. Later versions begin with the digits after it.
+const THIRD: char = '3';
 
 const NAMED: u8 = 1;
 const ENGINEERING: u8 = 2;
@@ -57,6 +60,11 @@ const OWN_AREA: u8 = 2;
 const OWN_MASS: u8 = 4;
 const OWN_GREEN: u8 = 8;
 const OWN_ENGINEERING: u8 = 16;
+
+/// The profiles of a path by their numbers.
+const PROFILES: [ProfileKind; 4] =
+    [ProfileKind::Quintic, ProfileKind::Trapezoid, ProfileKind::Scurve, ProfileKind::Constant];
+const SMOOTH: u8 = 4;
 
 /// k where an exponent follows; alone, where a double does.
 const LONG: u64 = 7;
@@ -81,7 +89,11 @@ pub enum LinkError {
 ///
 /// [`decode`] gives back the same scenario to the last bit if it is physical, and else tells why it is not.
 pub fn encode(scenario: &Scenario) -> String {
-    let version = if scenario.schema() == SCHEMA { FIRST } else { SECOND };
+    let version = match &scenario.path {
+        Some(_) => THIRD,
+        None if scenario.schema() == SCHEMA => FIRST,
+        None => SECOND,
+    };
     let mut out = Writer::default();
     out.scenario(scenario, version);
     out.0.extend(checksum(version, &out.0));
@@ -102,8 +114,8 @@ pub fn decode(text: &str) -> Result<Scenario, LinkError> {
     let text = text.trim_start().trim_end_matches(|c: char| !(c.is_ascii_alphanumeric() || c == '-' || c == '_'));
     let mut rest = text.chars();
     let version = match rest.next() {
-        Some(version @ (FIRST | SECOND)) => version,
-        Some('3'..='9') => return Err(LinkError::Newer),
+        Some(version @ (FIRST | SECOND | THIRD)) => version,
+        Some('4'..='9') => return Err(LinkError::Newer),
         _ => return Err(LinkError::Damaged),
     };
     let bytes = BASE64_URL_SAFE_NO_PAD.decode(rest.as_str()).map_err(|_| LinkError::Damaged)?;
@@ -153,13 +165,26 @@ impl Writer {
                     self.numbers(&[*horizontal, *vertical].concat());
                 }
             }
-            if version == SECOND {
+            if version != FIRST {
                 self.own(own);
             }
         }
         self.whole(scenario.elements_per_cable as u64);
         let Motion { position: [x, y], direction: [dx, dy], speed } = *motion;
         self.numbers(&[damping.alpha, damping.beta, x, y, dx, dy, speed]);
+        if let Some(path) = &scenario.path {
+            self.path(path);
+        }
+    }
+
+    fn path(&mut self, path: &Path) {
+        let profile = PROFILES.iter().position(|profile| *profile == path.profile).unwrap_or_default();
+        self.0.push(profile.to_le_bytes()[0] + SMOOTH * u8::from(path.corners == Corners::Smooth));
+        self.whole(path.points.len() as u64);
+        for point in &path.points {
+            self.numbers(point);
+        }
+        self.numbers(&[path.speed, path.acceleration, path.jerk, path.hold]);
     }
 
     fn own(&mut self, own: &OwnMaterial) {
@@ -239,6 +264,20 @@ impl Reader<'_> {
             damping: Damping { alpha: self.number()?, beta: self.number()? },
             linearisation: if has(TANGENT) { Linearisation::Tangent } else { Linearisation::Secant },
             motion: Motion { position: self.numbers()?, direction: self.numbers()?, speed: self.number()? },
+            path: if version == THIRD { Some(self.path()?) } else { None },
+        })
+    }
+
+    fn path(&mut self) -> Option<Path> {
+        let [flags] = self.bytes().filter(|[flags]| *flags < 2 * SMOOTH)?;
+        Some(Path {
+            profile: PROFILES[usize::from(flags % SMOOTH)],
+            corners: if flags & SMOOTH == 0 { Corners::Stop } else { Corners::Smooth },
+            points: (0..self.whole()?).map(|_| self.numbers()).collect::<Option<_>>()?,
+            speed: self.number()?,
+            acceleration: self.number()?,
+            jerk: self.number()?,
+            hold: self.number()?,
         })
     }
 
@@ -250,7 +289,7 @@ impl Reader<'_> {
             [2] => TensionLaw::Hypot { horizontal: self.numbers()?, vertical: self.numbers()? },
             _ => return None,
         };
-        let cable = if version == SECOND { self.own()? } else { OwnMaterial::default() };
+        let cable = if version == FIRST { OwnMaterial::default() } else { self.own()? };
         Some(Cable { anchor, tension, cable })
     }
 

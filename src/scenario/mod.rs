@@ -8,6 +8,7 @@ pub mod link;
 pub mod messages;
 pub mod options;
 mod parameter;
+mod path;
 pub mod plausible;
 pub mod presets;
 mod reader;
@@ -18,6 +19,7 @@ mod winches;
 
 pub use json::Scenario;
 pub use parameter::Parameter;
+pub use path::{Corners, MOST_POINTS as MOST_PATH_POINTS, Path, ProfileKind};
 pub use presets::Preset;
 pub use report::Report;
 pub use winches::{NoRobot, from_winches};

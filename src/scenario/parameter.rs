@@ -44,6 +44,16 @@ pub enum Parameter {
     Horizontal(usize, usize),
     /// Coefficient 0, 1 or 2 of the vertical part of a cable's tension law.
     Vertical(usize, usize),
+    /// The peak speed of the path.
+    PathSpeed,
+    /// The acceleration of the path's profile.
+    PathAcceleration,
+    /// The jerk of the path's profile.
+    PathJerk,
+    /// How long a flight goes on after the path.
+    PathHold,
+    /// A point of the path (0-based), x or y.
+    PathPoint(usize, usize),
 }
 
 impl Parameter {
@@ -61,7 +71,10 @@ impl Parameter {
         let model = [Self::Elements, Self::Alpha, Self::Beta];
         let motion = [0, 1].map(Self::Position).into_iter().chain([0, 1].map(Self::DirectionComponent));
         let all = before.into_iter().chain((0..scenario.cables.len()).flat_map(of_cable));
-        let all = all.chain(model).chain(motion).chain([Self::Speed]);
+        let points = scenario.path.as_ref().map_or(0, |path| path.points.len());
+        let points = (0..points).flat_map(|point| [0, 1].map(|i| Self::PathPoint(point, i)));
+        let profile = [Self::PathSpeed, Self::PathAcceleration, Self::PathJerk, Self::PathHold];
+        let all = all.chain(model).chain(motion).chain([Self::Speed]).chain(points).chain(profile);
         all.filter(|parameter| parameter.is_in(scenario)).collect()
     }
 
@@ -154,6 +167,11 @@ impl Parameter {
             Self::Tension(cable) => format!("cables[{cable}].tension.constant"),
             Self::Horizontal(cable, i) => format!("cables[{cable}].tension.horizontal[{i}]"),
             Self::Vertical(cable, i) => format!("cables[{cable}].tension.vertical[{i}]"),
+            Self::PathSpeed => "path.speed".into(),
+            Self::PathAcceleration => "path.acceleration".into(),
+            Self::PathJerk => "path.jerk".into(),
+            Self::PathHold => "path.hold".into(),
+            Self::PathPoint(point, i) => format!("path.points[{point}][{i}]"),
         }
     }
 
@@ -208,6 +226,11 @@ impl Parameter {
             Self::DirectionComponent(i) => scenario.motion.direction.get_mut(i),
             Self::Anchor(cable, i) => scenario.cables.get_mut(cable)?.anchor.get_mut(i),
             Self::Elements | Self::Direction => None,
+            Self::PathSpeed => Some(&mut scenario.path.as_mut()?.speed),
+            Self::PathAcceleration => Some(&mut scenario.path.as_mut()?.acceleration),
+            Self::PathJerk => Some(&mut scenario.path.as_mut()?.jerk),
+            Self::PathHold => Some(&mut scenario.path.as_mut()?.hold),
+            Self::PathPoint(point, i) => scenario.path.as_mut()?.points.get_mut(point)?.get_mut(i),
             Self::Tension(cable) | Self::Horizontal(cable, _) | Self::Vertical(cable, _) => {
                 match (self, &mut scenario.cables.get_mut(cable)?.tension) {
                     (Self::Tension(_), TensionLaw::Constant(tension)) => Some(tension),
@@ -225,7 +248,7 @@ mod tests {
     use serde_json::Value;
 
     use super::*;
-    use crate::scenario::presets;
+    use crate::scenario::{Path, presets};
 
     /// The numbers of a file with their paths.
     fn numbers(value: &Value, path: &str, found: &mut Vec<(String, f64)>) {
@@ -249,6 +272,7 @@ mod tests {
             scenario.cables[0].cable.youngs_modulus = Some(2e11);
             scenario.cables[1].cable.area = Some(2e-5);
             scenario.cables[2].cable.mass_per_length = Some(0.7);
+            scenario.path = Some(Path::new(vec![[1.0, 0.5], [2.0, 0.5]], 3.0));
             let mut in_file = Vec::new();
             numbers(&serde_json::to_value(&scenario).expect("JSON"), "", &mut in_file);
             let value = |parameter: &Parameter| (parameter.path(), parameter.get(&scenario));

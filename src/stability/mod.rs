@@ -17,7 +17,7 @@ mod problems;
 mod rest;
 mod sensitivity;
 mod spectrum;
-pub mod steps;
+pub use crate::steps;
 mod ties;
 mod undamped;
 

@@ -1,7 +1,7 @@
 //! The robot at one pose, ready to be asked for its spectrum, modes and critical speed.
 
 use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration, WaveLimit};
-use crate::robot::{Motion, Robot, Vec2};
+use crate::robot::{Motion, PathPoint, Robot, Vec2};
 use crate::stability::steps::finish;
 use crate::stability::{CriticalSearch, NotConverged, Outcome, Spectra, Spectrum};
 
@@ -47,11 +47,23 @@ impl LocalProblem {
     /// # Errors
     /// A pose where the motion or the vibrations cannot be computed, with the shapes.
     pub fn along(robot: &Robot, statics: Statics, direction: Vec2) -> Result<Self, Failure> {
+        Self::on_curve(robot, statics, direction, Vec2::zeros())
+    }
+
+    /// The same at a point of a path, with L'' that has the path's curvature in it.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn at(robot: &Robot, point: &PathPoint) -> Result<Self, Failure> {
+        Self::on_curve(robot, mechanics::solve(robot, point.position)?, point.tangent, point.curvature)
+    }
+
+    fn on_curve(robot: &Robot, statics: Statics, tangent: Vec2, curvature: Vec2) -> Result<Self, Failure> {
         let failed = |statics: Statics| Failure {
             reason: StaticsError::OutOfRange,
             cables: statics.cables.into_iter().map(Some).collect(),
         };
-        let Some(rates) = mechanics::length_rates(robot, &statics, direction) else {
+        let Some(rates) = mechanics::length_rates_on(robot, &statics, tangent, curvature) else {
             return Err(failed(statics));
         };
         let Some(vibration) = Vibration::new(robot, &statics, &rates) else {
