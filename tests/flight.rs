@@ -16,7 +16,7 @@ fn files() -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).expect("the folder").map(|entry| entry.expect("an entry").path());
     let mut files: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|end| end == "json")).collect();
     files.sort();
-    assert_eq!(files.len(), 13);
+    assert_eq!(files.len(), 14);
     files
 }
 
@@ -125,7 +125,7 @@ fn the_residual_vibration_is_largest_when_it_should() {
         let (robot, trajectory, options) = flight_of(&case);
         let Some(expected) = case["summary"]["residual_max_at_s"].as_f64() else { continue };
         let end = trajectory.duration() + options.hold;
-        let samples = (end / 5e-3).round() as usize + 1;
+        let samples = samples_every(5e-3, end);
         let flight = fly(&robot, &trajectory, &FlightOptions { samples, accuracy: 1e-5, ..options }).expect("a flight");
         let moved = flight.samples.iter().filter(|sample| sample.time >= flight.duration - 1e-9);
         let after: Vec<(f64, f64)> = moved.map(|sample| (sample.time, sample.deviation.norm())).collect();
@@ -140,6 +140,12 @@ fn the_residual_vibration_is_largest_when_it_should() {
         let tolerance = if expected - flight.duration < 1e-9 { 5e-3 } else { 2e-3 };
         close(time, expected, tolerance, name(&file));
     }
+}
+
+/// How many samples are about so many seconds apart.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a count")]
+fn samples_every(seconds: f64, end: f64) -> usize {
+    (end / seconds).round() as usize + 1
 }
 
 fn quintic(speed: f64) -> Trajectory {
@@ -169,7 +175,8 @@ fn the_faster_the_paper_robot_moves_the_farther_it_deviates() {
     let sudden = Profile::Trapezoid { speed: 5.0, acceleration: 8.3 };
     let path = Trajectory::straight(Vec2::new(-6.0, 0.0), &[Vec2::new(6.0, 0.0)], sudden).expect("a path");
     let flight = fly(&robot, &path, &held()).expect("a flight");
-    close(flight.max_deviation, 0.240, 5e-4, "the trapezoid");
+    // The acceleration is known to two digits.
+    close(flight.max_deviation, 0.240, 2e-3, "the trapezoid");
     // It looked at the forces less often.
     close(flight.slack.expect("slack").force, -35.0, 2.0, "the least force of the trapezoid");
 }
@@ -181,7 +188,7 @@ fn slack_begins_at_the_moment_that_is_told() {
     let flight = fly(&robot, &quintic(7.0), &held()).expect("a flight");
     let slack = flight.slack.expect("slack");
     // A flight with samples every millisecond.
-    let samples = (flight.end / 1e-3).round() as usize + 1;
+    let samples = samples_every(1e-3, flight.end);
     let fine = fly(&robot, &quintic(7.0), &FlightOptions { samples, ..held() }).expect("a flight");
     let first = fine.samples.iter().find(|sample| sample.smallest_element_force < 0.0).expect("one that pushes");
     assert!(first.time >= slack.time - 1e-5 && first.time < slack.time + 1.1e-3, "{} {slack:?}", first.time);

@@ -91,7 +91,7 @@ fn compare(robot: &Robot, motion: &Motion) -> usize {
         Err(reason) => panic!("{reason}: {robot:?} {motion:?}"),
     };
     let mut compared = 0;
-    for Sensitivity { knob, speed, frequency } in all {
+    for Sensitivity { knob, speed, frequency, .. } in all {
         let what = format!("{knob:?} at {:?} along {:?} of {robot:?}", motion.position(), motion.direction());
         assert_eq!(frequency.is_some(), at.kind == Instability::Flutter, "{what}");
         let Some([by_speed, by_frequency]) = differences(robot, motion, &at, knob) else { continue };
@@ -242,6 +242,39 @@ fn check_units(robot: &Robot, motion: &Motion) -> bool {
     true
 }
 
+/// Those of the wave limit, against differences: rounding of ln v over h, and a fifteenth of what two steps differ by.
+#[test]
+fn those_of_the_wave_limit_are_what_differences_give() {
+    let waves = |robot: &Robot, motion: &Motion| {
+        LocalProblem::new(robot, motion).ok().and_then(|local| local.wave_limit).expect("a wave limit")
+    };
+    let robots = [Linearisation::Secant, Linearisation::Tangent]
+        .map(|linearisation| [RobotSpec { linearisation, ..paper_spec() }, RobotSpec { linearisation, ..mixed() }]);
+    for (spec, position, direction) in robots.into_iter().flatten().flat_map(|spec| {
+        [([2.0, 0.0], [1.0, 0.0]), ([-3.0, 1.5], [1.0, 0.4]), ([6.0, 0.5], [1.0, 0.0])]
+            .map(|(position, direction)| (spec.clone(), position, direction))
+    }) {
+        let (robot, motion) = (Robot::new(spec).expect("a robot"), Motion::new(position, direction, 0.0).expect("one"));
+        let (limit, at) = (waves(&robot, &motion), critical(&robot, &motion).expect("a critical speed"));
+        let all = sensitivities(&robot, &motion, &at).expect("derivatives");
+        let mut sums = [0.0; 2];
+        for Sensitivity { knob, wave_limit, .. } in all {
+            let found = wave_limit.expect("a derivative");
+            let change = |s: f64| (waves(&turned(&robot, knob, s), &motion).speed / limit.speed).ln();
+            let slope = |h: f64| (change(h) - change(-h)) / (2.0 * h);
+            let (near, far) = (slope(STEP), slope(2.0 * STEP));
+            close(found, (4.0 * near - far) / 3.0, 1e-10 / STEP + (near - far).abs(), format!("{knob:?} {position:?}"));
+            // What units of mass and of time demand, as of the critical speed.
+            let force = matches!(knob, Knob::YoungsModulus | Knob::OwnYoungsModulus(_) | Knob::Tension(_));
+            let of_mass = |knob| matches!(knob, Knob::MassPerLength | Knob::OwnMassPerLength(_) | Knob::PlatformMass);
+            sums[0] += if force || of_mass(knob) { found } else { 0.0 };
+            sums[1] += if force || knob == Knob::Gravity { 2.0 * found } else { 0.0 };
+        }
+        close(sums[0], 0.0, 1e-9, format!("mass {position:?}"));
+        close(sums[1], 1.0, 1e-9, format!("time {position:?}"));
+    }
+}
+
 #[test]
 fn units_of_mass_and_time_do_not_matter() {
     for linearisation in [Linearisation::Secant, Linearisation::Tangent] {
@@ -292,7 +325,7 @@ fn a_parameter_that_is_zero_counts_for_nothing() {
     let robot = Robot::new(RobotSpec { damping, gravity: 0.0, ..paper_spec() }).expect("a robot");
     let motion = Motion::new([1.0, 0.0], [1.0, 0.0], 0.0).expect("a motion");
     let at = critical(&robot, &motion).expect("a critical speed");
-    for Sensitivity { knob, speed, frequency } in sensitivities(&robot, &motion, &at).expect("a simple crossing") {
+    for Sensitivity { knob, speed, frequency, .. } in sensitivities(&robot, &motion, &at).expect("a simple crossing") {
         let nothing = matches!(knob, Knob::Beta | Knob::Gravity);
         assert_eq!(nothing, speed == 0.0 && frequency.is_none_or(|f| f == 0.0), "{knob:?}: {speed}");
     }

@@ -55,7 +55,7 @@ function table(caption, head, rows) {
 }
 
 function criticalTable(report, elements) {
-    const { critical, wave_limit: wave } = report;
+    const { critical, wave_limit: wave, slack_acceleration: slack } = report;
     const yes = (value) => (value === null ? "not known" : value ? "yes" : "no");
     const rows = critical ? [
         ["Critical speed as computed", `${critical.speed} m/s`],
@@ -65,6 +65,13 @@ function criticalTable(report, elements) {
     ] : [["Critical speed", `none up to ${rounded(report.searched_up_to)} m/s`]];
     if (wave) {
         rows.push(["Wave limit", `${rounded(wave.speed)} m/s, cable ${wave.cable}, ${wave.reeled_in ? "reeled in" : "paid out"}`]);
+    }
+    for (const [limit, how] of [[slack?.accelerating, "speeding up"], [slack?.braking, "braking"]]) {
+        if (limit) rows.push([`Slack acceleration, ${how}`, `${rounded(limit.value)} m/s² by statics, cable ${limit.cable}`]);
+    }
+    if (slack) {
+        rows.push(["Slack in flight", "earlier: at up to 30 % less peak speed, which is half the acceleration"],
+            ["Deviation per m/s²", `${rounded(1e3 * slack.deviation_per_acceleration)} mm`]);
     }
     rows.push(["Stable at rest", yes(report.stable_at_rest)],
         [`Stable at ${rounded(report.speed)} m/s`, yes(report.stable)],

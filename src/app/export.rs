@@ -158,9 +158,16 @@ fn modes(facts: Facts<'_>) -> Option<Table> {
 /// Relative derivatives of the critical speed and of its frequency.
 fn sensitivities(facts: Facts<'_>) -> Option<Table> {
     let (found, _) = facts.answers.sensitivities()?;
-    let mut table = Table::new(&["parameter", "critical_speed_percent_per_percent", "frequency_percent_per_percent"]);
+    let mut table = Table::new(&[
+        "parameter",
+        "critical_speed_percent_per_percent",
+        "frequency_percent_per_percent",
+        "wave_limit_percent_per_percent",
+    ]);
     let rows = found.as_ref().ok()?.iter();
-    table.rows = rows.map(|one| vec![parameter(one.knob), one.speed.to_string(), cell(one.frequency)]).collect();
+    table.rows = rows
+        .map(|one| vec![parameter(one.knob), one.speed.to_string(), cell(one.frequency), cell(one.wave_limit)])
+        .collect();
     Some(table)
 }
 

@@ -1,7 +1,9 @@
 //! The command line: one file per verb. Standard output carries results only, standard error one line per fault.
 
 mod analyze;
+mod course;
 mod example;
+mod fly;
 mod link;
 mod map;
 mod output;
@@ -61,6 +63,7 @@ enum Verb {
     Sweep(sweep::Args),
     Example(example::Args),
     Link(link::Args),
+    Fly(fly::Args),
 }
 
 /// Where the program reads and writes: the process's own streams, or a test's.
@@ -90,6 +93,7 @@ pub fn run_with(arguments: impl IntoIterator<Item = OsString>, streams: Streams)
         Ok(Args { verb: Some(Verb::Sweep(args)), .. }) => sweep::run(&args, input),
         Ok(Args { verb: Some(Verb::Example(args)), .. }) => example::run(&args),
         Ok(Args { verb: Some(Verb::Link(args)), .. }) => link::run(&args, input),
+        Ok(Args { verb: Some(Verb::Fly(args)), .. }) => fly::run(&args, input),
         Ok(Args { verb: None, file: None }) => return Start::App { scenario: None },
         Ok(Args { verb: None, file: Some(file) }) => match read_scenario(&file, input) {
             Ok(scenario) => return Start::App { scenario: Some(Box::new(scenario)) },

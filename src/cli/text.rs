@@ -4,7 +4,9 @@ use std::f64::consts::TAU;
 use std::fmt::{self, Write as _};
 
 use crate::robot::{Linearisation, Motion, OwnMaterial, Strain, TensionLaw};
-use crate::scenario::report::{CriticalReport, KindReport, StatusReport, WaveLimitReport};
+use crate::scenario::report::{
+    CriticalReport, KindReport, SlackAccelerationReport, SlackLimitReport, StatusReport, WaveLimitReport,
+};
 use crate::scenario::{Report, Scenario};
 
 /// Slower changes of length per metre of travel are none.
@@ -44,7 +46,30 @@ fn write(text: &mut String, scenario: &Scenario, motion: &Motion, report: &Repor
             "Wave limit: {speed} m/s, where the winch of cable {cable} reels as fast as waves run along it"
         )?;
     }
+    if let Some(slack) = &report.slack_acceleration {
+        slack_acceleration(text, slack)?;
+    }
     writeln!(text, "\n{CAVEAT}")
+}
+
+fn slack_acceleration(text: &mut String, slack: &SlackAccelerationReport) -> fmt::Result {
+    let limits = [("speeding up", &slack.accelerating), ("braking", &slack.braking)];
+    let told = |(how, limit): (&str, &Option<_>)| {
+        let SlackLimitReport { value, cable } = limit.as_ref()?;
+        Some(format!("{} m/s² {how} (cable {cable})", digits(*value, 4)))
+    };
+    let told: Vec<String> = limits.into_iter().filter_map(told).collect();
+    if told.is_empty() {
+        writeln!(text, "Slack acceleration: none, no cable goes slack")?;
+    } else {
+        writeln!(text, "Slack acceleration: {}, by statics", told.join(", "))?;
+        writeln!(
+            text,
+            "    Flown, slack comes earlier: at up to 30 % less peak speed, which is half the acceleration"
+        )?;
+    }
+    let deviation = digits(1e3 * slack.deviation_per_acceleration, 3);
+    writeln!(text, "    The platform gives way by {deviation} mm per m/s²")
 }
 
 fn heading(text: &mut String, scenario: &Scenario, motion: &Motion) -> fmt::Result {

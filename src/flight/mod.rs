@@ -5,7 +5,9 @@
 
 mod equations;
 mod fly;
+mod growth;
 mod quasi_static;
+mod limits;
 mod record;
 mod sdirk;
 #[cfg(test)]
@@ -13,4 +15,6 @@ mod tests;
 mod watch;
 
 pub use fly::{fly, fly_in_steps};
+pub use growth::{gain, gain_in_steps, gain_of_few_modes_in_steps};
+pub use limits::{CableRow, FastestMove, INTERVALS, LimitOptions, LimitsError, MoveRow, Place, legs, limits};
 pub use record::{CableSample, Flight, FlightError, FlightOptions, Gain, Sample, Slack};

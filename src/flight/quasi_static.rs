@@ -38,12 +38,14 @@ impl<'a> Path<'a> {
     pub fn at(&mut self, time: f64, side: Side) -> Result<QuasiStatic, FlightError> {
         let moment = self.trajectory.at(time, side);
         let rests = |moment: &Moment| moment.v == 0.0 && moment.a == 0.0;
-        if let Some(last) = &self.last {
-            if rests(&last.moment) && rests(&moment) && last.moment.point == moment.point {
-                return Ok(QuasiStatic { moment, cables: last.cables.clone() });
-            }
+        if let Some(last) = &self.last
+            && rests(&last.moment)
+            && rests(&moment)
+            && last.moment.point == moment.point
+        {
+            return Ok(QuasiStatic { moment, cables: last.cables.clone() });
         }
-        let cables = self.follow(&moment).or_else(|fault| Err(self.border(time, side, fault)))?;
+        let cables = self.follow(&moment).map_err(|fault| self.border(time, side, fault))?;
         let found = QuasiStatic { moment, cables };
         self.last = Some(found.clone());
         Ok(found)

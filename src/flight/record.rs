@@ -40,7 +40,8 @@ pub struct Flight {
     pub residual: Option<f64>,
     /// Where an element had to push; from there on nothing is reliable.
     pub slack: Option<Slack>,
-    /// When the flight could not go on, in s, because Newton's method failed; all before is as it should be.
+    /// When the flight could not go on, in s, because Newton's method failed or the steps became too many; all before is as it
+    /// should be.
     pub lost: Option<f64>,
     /// How many steps were taken.
     pub steps: usize,

@@ -7,9 +7,9 @@
 use super::equations::{Instant, Nodes, State, add, largest, plus};
 
 /// γ, the root of x³ − 3x² + 3x/2 − 1/6 with which the method is L-stable.
-const GAMMA: f64 = 0.435_866_521_508_459;
+pub(super) const GAMMA: f64 = 0.435_866_521_508_459;
 /// What each stage takes of those before it, and γ of itself.
-const STAGES: [[f64; 3]; 3] = [[GAMMA, 0.0, 0.0], [0.5 * (1.0 - GAMMA), GAMMA, 0.0], WEIGHTS];
+pub(super) const STAGES: [[f64; 3]; 3] = [[GAMMA, 0.0, 0.0], [0.5 * (1.0 - GAMMA), GAMMA, 0.0], WEIGHTS];
 /// The last stage is the end of the step.
 const WEIGHTS: [f64; 3] =
     [-0.25 * (6.0 * GAMMA * GAMMA - 16.0 * GAMMA + 1.0), 0.25 * (6.0 * GAMMA * GAMMA - 20.0 * GAMMA + 5.0), GAMMA];

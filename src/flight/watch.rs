@@ -74,6 +74,12 @@ impl Between<'_> {
     }
 }
 
+/// How many equal parts of `h`, a step in s, are no longer than `grid`.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "positive, and a step is short")]
+fn parts(h: f64, grid: f64) -> u32 {
+    (h / grid).ceil().max(1.0) as u32
+}
+
 /// What has been seen so far.
 #[derive(Debug, Default)]
 pub(super) struct Watch {
@@ -97,9 +103,9 @@ impl Watch {
     pub fn step(&mut self, equations: &Equations, trajectory: &Trajectory, between: &Between) {
         let h = between.step();
         let after_the_move = between.times[0] >= self.duration * (1.0 - 1e-9);
-        let parts = (h / GRID).ceil().max(1.0) as usize;
-        for k in usize::from(!after_the_move)..=parts {
-            let x = k as f64 / parts as f64;
+        let parts = self::parts(h, GRID);
+        for k in u32::from(!after_the_move)..=parts {
+            let x = f64::from(k) / f64::from(parts);
             let path = trajectory.at(between.times[0] + x * h, Side::Left).point.position;
             let deviation = (between.platform(x) - path).norm();
             self.max_deviation = self.max_deviation.max(deviation);
@@ -107,14 +113,14 @@ impl Watch {
                 self.residual = self.residual.max(deviation);
             }
         }
-        let parts = (h / FORCE_GRID).ceil().max(1.0) as usize;
+        let parts = self::parts(h, FORCE_GRID);
         for k in 1..=parts {
-            let x = k as f64 / parts as f64;
+            let x = f64::from(k) / f64::from(parts);
             let (force, cable) = between.least_force(equations, x);
             if let Some(slack) = &mut self.slack {
                 slack.force = slack.force.min(force);
             } else if force < 0.0 {
-                let (mut taut, mut pushing) = ((k - 1) as f64 / parts as f64, (x, cable));
+                let (mut taut, mut pushing) = (f64::from(k - 1) / f64::from(parts), (x, cable));
                 for _ in 0..HALVINGS {
                     let middle = 0.5 * (taut + pushing.0);
                     match between.least_force(equations, middle) {

@@ -78,7 +78,8 @@ impl<D: DualNum<Primitive = f64> + Copy> Material<D> {
 /// The root x ≥ 1 of x³ − x = y, y ≥ 0.
 fn green_stretch(y: f64) -> f64 {
     // Right of the root on a convex function Newton's method falls monotonically, so it stops by itself.
-    let mut x = 1.0 + (0.5 * y).min(y.cbrt());
+    // The first of these is the smaller one up to y = √8, and roots take time.
+    let mut x = 1.0 + if y < 2.5 { 0.5 * y } else { (0.5 * y).min(y.cbrt()) };
     loop {
         let next = x - (x * (x - 1.0) * (x + 1.0) - y) / (3.0 * x * x - 1.0);
         if next >= x || next.is_nan() {

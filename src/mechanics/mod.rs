@@ -9,6 +9,7 @@ mod material;
 mod motion;
 mod parameters;
 mod quasi_static;
+mod slack;
 mod statics;
 mod waves;
 
@@ -20,5 +21,6 @@ pub use material::Material;
 pub use motion::{LengthRates, length_rates, length_rates_on, node_rates};
 pub use parameters::Knob;
 pub use quasi_static::{CableMotion, Follower};
+pub use slack::{SlackAcceleration, SlackLimit, slack_acceleration};
 pub use statics::{CableShape, Failure, Infeasible, Statics, StaticsError, solve};
-pub use waves::{WaveLimit, wave_limit};
+pub use waves::{WaveLimit, wave_limit, wave_limit_shift};

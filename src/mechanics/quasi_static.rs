@@ -45,6 +45,9 @@ pub struct Follower<'a> {
 /// P in N and L in m of a cable, and their first and second derivatives in time.
 type Unknowns = [(Vec2, f64); 3];
 
+/// P and L of all cables, and how their ends answer these.
+type Shapes = (Vec<(Vec2, f64)>, Vec<Answer>);
+
 /// How a cable's end answers its unknowns.
 #[derive(Clone, Copy)]
 struct Answer {
@@ -85,7 +88,7 @@ impl<'a> Follower<'a> {
         });
         let (unknowns, answers) = match extrapolated {
             Some(found) => found,
-            None => self.from_nothing(position)?,
+            None => self.anew(position)?,
         };
         let out_of_range = StaticsError::OutOfRange;
         let (rates, motion) = self.rates(&unknowns, &answers, position, velocity, acceleration).ok_or(out_of_range)?;
@@ -93,7 +96,7 @@ impl<'a> Follower<'a> {
         Ok(motion)
     }
 
-    fn from_nothing(&self, position: Vec2) -> Result<(Vec<(Vec2, f64)>, Vec<Answer>), StaticsError> {
+    fn anew(&self, position: Vec2) -> Result<Shapes, StaticsError> {
         let statics = solve(self.robot, position).map_err(|failure| failure.reason)?;
         let pull = |(model, shape): (&CableModel<f64>, &crate::mechanics::CableShape)| {
             (Vec2::from(model.platform_force(shape.t0.into(), shape.length)), shape.length)
@@ -109,7 +112,7 @@ impl<'a> Follower<'a> {
     }
 
     /// The taut shapes near `unknowns`.
-    fn newton(&self, position: Vec2, mut unknowns: Vec<(Vec2, f64)>) -> Option<(Vec<(Vec2, f64)>, Vec<Answer>)> {
+    fn newton(&self, position: Vec2, mut unknowns: Vec<(Vec2, f64)>) -> Option<Shapes> {
         let robot = self.robot;
         let tensions: Vec<f64> =
             robot.cables.iter().map(|cable| prescribed_tension(cable.tension, position.into())).collect();
@@ -291,5 +294,86 @@ impl CableModel<f64> {
             velocities.push(r1);
         }
         (CableMotion { length: [length, rate, 0.0], pull, forces, nodes, velocities }, r2)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::{length_rates_on, node_rates};
+    use crate::robot::{OwnMaterial, RobotSpec, Strain, paper_spec};
+
+    fn robots() -> Vec<Robot> {
+        let mut mixed = paper_spec();
+        mixed.cables[1].own = OwnMaterial { strain: Some(Strain::Engineering), ..OwnMaterial::default() };
+        mixed.cables[2].own = OwnMaterial { mass_per_length: Some(0.25), ..OwnMaterial::default() };
+        let mut lower = paper_spec();
+        lower.cables.swap(0, 2);
+        lower.cables.swap(1, 3);
+        lower.gravity = 0.0;
+        let soft = RobotSpec { elements: 3, ..paper_spec() };
+        [paper_spec(), mixed, lower, soft].into_iter().map(|spec| Robot::new(spec).expect("a robot")).collect()
+    }
+
+    /// Along a curve through the workspace, and from place to place at random, shapes and rates are those from nothing.
+    #[test]
+    fn what_is_followed_is_what_is_found_from_nothing() {
+        for robot in robots() {
+            let (mut follower, mut compared) = (Follower::new(&robot), 0);
+            for k in 0..200_u32 {
+                // The second half leaps, so that extrapolation is useless.
+                let time = if k < 100 { f64::from(k) * 0.02 } else { f64::from(k * 37 % 100) * 0.02 };
+                let position = Vec2::new(5.0 * (1.3 * time).sin(), 2.0 * (2.1 * time).cos());
+                let velocity = Vec2::new(6.5 * (1.3 * time).cos(), -4.2 * (2.1 * time).sin());
+                let acceleration = Vec2::new(-8.45 * (1.3 * time).sin(), -8.82 * (2.1 * time).cos());
+                let followed = follower.at(time, position, velocity, acceleration);
+                let (found, statics) = match (followed, solve(&robot, position)) {
+                    (Ok(found), Ok(statics)) => (found, statics),
+                    (followed, from_nothing) => {
+                        assert_eq!(followed.err(), from_nothing.err().map(|failure| failure.reason), "{position:?}");
+                        continue;
+                    }
+                };
+                compared += 1;
+                let rates = length_rates_on(&robot, &statics, velocity, acceleration).expect("rates");
+                let nodes = node_rates(&robot, &statics, velocity, acceleration).expect("rates");
+                for (i, cable) in found.iter().enumerate() {
+                    let shape = &statics.cables[i];
+                    let close = |a: f64, b: f64, size: f64| {
+                        assert!((a - b).abs() < 1e-11 * size, "{time} s, cable {i}: {a} instead of {b}");
+                    };
+                    close(cable.length[0], shape.length, shape.length);
+                    close(cable.length[1], rates[i].first, 10.0);
+                    close(cable.length[2], rates[i].second, 100.0);
+                    close(cable.pull.norm(), shape.tension_at_platform, shape.tension_at_platform);
+                    assert_eq!(cable.nodes.len(), shape.nodes.len());
+                    for (k, node) in shape.nodes.iter().enumerate() {
+                        close((cable.nodes[k] - node).norm(), 0.0, 10.0);
+                        close((cable.velocities[k] - nodes[i][k][0]).norm(), 0.0, 10.0);
+                    }
+                    for (force, expected) in cable.forces.iter().zip(&shape.forces) {
+                        close((force - expected).norm(), 0.0, expected.norm());
+                    }
+                }
+            }
+            assert!(compared > 100, "{compared} feasible");
+        }
+    }
+
+    /// Step by step out of the feasible region: the border is where it is from nothing, and so is the reason.
+    #[test]
+    fn a_branch_ends_where_it_does_from_nothing() {
+        for robot in robots() {
+            for direction in [Vec2::x(), Vec2::y(), -Vec2::y(), Vec2::new(0.8, -0.6)] {
+                let mut follower = Follower::new(&robot);
+                for k in 0..600 {
+                    let time = f64::from(k) * 0.02;
+                    let position = direction * time;
+                    let followed = follower.at(time, position, direction, Vec2::zeros()).err();
+                    let from_nothing = solve(&robot, position).err().map(|failure| failure.reason);
+                    assert_eq!(followed, from_nothing, "{position:?}");
+                }
+            }
+        }
     }
 }

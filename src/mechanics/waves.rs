@@ -4,7 +4,9 @@
 //! outer end, where it is fastest. Transverse waves run against the material with c = √(N/(λ μ)), μ per unstretched
 //! length and the law N(λ) those of the cable. Where |w| reaches c, no wave gets back to the platform any more.
 
-use crate::mechanics::{CableShape, LengthRates, Material, Statics};
+use num_dual::Dual64;
+
+use crate::mechanics::{CableShape, Element, LengthRates, Material, Statics, Vibration};
 use crate::robot::{Robot, Vec2};
 
 /// Limits that differ by less than this part are equal but for rounding.
@@ -44,6 +46,22 @@ pub fn wave_limit(robot: &Robot, statics: &Statics, rates: &[LengthRates]) -> Op
     let together = || limits.iter().filter(|limit| limit.speed <= least.speed * (1.0 + TOGETHER));
     let first = together().find(|limit| limit.reeled_in).or_else(|| together().next());
     Some(WaveLimit { speed: least.speed, ..*first.unwrap_or(&least) })
+}
+
+/// d ln v/d ln p of the wave limit v with respect to the parameter along which the dual numbers of `along` are
+/// ([`Vibration::along`]); of the element that `limit` belongs to, exact.
+///
+/// Where elements of several cables reach it together, v has a kink, and this is the derivative of the limit's cable. `None`
+/// where `limit` is not of this problem, or the derivative is not finite.
+pub fn wave_limit_shift(along: &Vibration<Dual64>, limit: &WaveLimit) -> Option<f64> {
+    let chain = along.chains().get(limit.cable)?;
+    let square = |element: &Element<Dual64>| {
+        // N/λ is the stiffness across the element.
+        let inflow = element.inflow[1];
+        element.stiffness.across / (element.mass_per_length * inflow * inflow)
+    };
+    let least = chain.elements().iter().map(square).min_by(|a, b| a.re.total_cmp(&b.re))?;
+    Some(0.5 * least.eps / least.re).filter(|shift| shift.is_finite())
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 //! scenario as a link; the messages of the text version.
 
 pub mod file;
+pub mod flight_report;
 pub mod json;
 mod layout;
 pub mod link;
@@ -15,6 +16,7 @@ mod reader;
 pub mod report;
 pub mod ropes;
 pub mod table;
+pub mod trajectory;
 mod winches;
 
 pub use json::Scenario;

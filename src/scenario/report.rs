@@ -3,7 +3,7 @@
 use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
-use crate::mechanics::{CableShape, Failure, LengthRates, StaticsError, WaveLimit};
+use crate::mechanics::{CableShape, Failure, LengthRates, SlackAcceleration, SlackLimit, StaticsError, WaveLimit};
 use crate::robot::{Motion, Robot};
 use crate::scenario::Parameter;
 use crate::stability::steps::finish_watched;
@@ -46,6 +46,8 @@ pub struct Report {
     pub searched_up_to: f64,
     /// The speed at which a winch reels as fast as waves run along its cable, where a cable moves.
     pub wave_limit: Option<WaveLimitReport>,
+    /// The acceleration from rest at which a cable goes slack, by statics; in flight it goes slack earlier.
+    pub slack_acceleration: Option<SlackAccelerationReport>,
 }
 
 /// How the search for a critical speed ended, as tables and analyses tell it.
@@ -98,6 +100,42 @@ pub struct WaveLimitReport {
 impl From<WaveLimit> for WaveLimitReport {
     fn from(WaveLimit { speed, cable, reeled_in }: WaveLimit) -> Self {
         Self { speed, cable: cable + 1, reeled_in }
+    }
+}
+
+/// How hard the platform may speed up or brake from rest before a cable goes slack, by statics.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SlackAccelerationReport {
+    /// Along the motion; `None` where no cable goes slack.
+    pub accelerating: Option<SlackLimitReport>,
+    /// Against it, as a positive number.
+    pub braking: Option<SlackLimitReport>,
+    /// The platform's deviation in m per m/s².
+    pub deviation_per_acceleration: f64,
+}
+
+/// The acceleration at which a cable goes slack.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SlackLimitReport {
+    /// In m/s².
+    pub value: f64,
+    /// The cable, 1-based.
+    pub cable: usize,
+}
+
+impl From<SlackLimit> for SlackLimitReport {
+    fn from(SlackLimit { value, cable }: SlackLimit) -> Self {
+        Self { value, cable: cable + 1 }
+    }
+}
+
+impl From<SlackAcceleration> for SlackAccelerationReport {
+    fn from(slack: SlackAcceleration) -> Self {
+        Self {
+            accelerating: slack.accelerating.map(SlackLimitReport::from),
+            braking: slack.braking.map(SlackLimitReport::from),
+            deviation_per_acceleration: slack.deviation_per_acceleration,
+        }
     }
 }
 
@@ -231,6 +269,7 @@ impl Report {
             cables: cables.map(|(shape, &rates)| CableReport::new(shape, rates)).collect(),
             stable_at_rest: Some(local.vibration.is_stable_at_rest()),
             wave_limit: local.wave_limit.map(WaveLimitReport::from),
+            slack_acceleration: local.slack_acceleration.map(SlackAccelerationReport::from),
             ..Self::unknown("", speed)
         }
     }
@@ -251,6 +290,7 @@ impl Report {
             critical: None,
             searched_up_to: 0.0,
             wave_limit: None,
+            slack_acceleration: None,
         }
     }
 

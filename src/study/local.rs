@@ -1,6 +1,6 @@
 //! The robot at one pose, ready to be asked for its spectrum, modes and critical speed.
 
-use crate::mechanics::{self, Failure, LengthRates, Statics, StaticsError, Vibration, WaveLimit};
+use crate::mechanics::{self, Failure, LengthRates, SlackAcceleration, Statics, StaticsError, Vibration, WaveLimit};
 use crate::robot::{Motion, PathPoint, Robot, Vec2};
 use crate::stability::steps::finish;
 use crate::stability::{CriticalSearch, NotConverged, Outcome, Spectra, Spectrum};
@@ -26,6 +26,8 @@ pub struct LocalProblem {
     pub rates: Vec<LengthRates>,
     /// The speed at which a winch reels as fast as waves run, where a cable moves.
     pub wave_limit: Option<WaveLimit>,
+    /// How hard the platform may speed up or brake from rest before a cable goes slack, by statics.
+    pub slack_acceleration: Option<SlackAcceleration>,
     /// The problem of small vibrations, for every speed.
     pub vibration: Vibration,
     /// The same, prepared for its eigenvalues.
@@ -72,7 +74,8 @@ impl LocalProblem {
         match Spectra::new(&vibration) {
             Ok(spectra) => {
                 let wave_limit = mechanics::wave_limit(robot, &statics, &rates);
-                Ok(Self { statics, rates, wave_limit, vibration, spectra })
+                let slack_acceleration = mechanics::slack_acceleration(robot, &statics, tangent);
+                Ok(Self { statics, rates, wave_limit, slack_acceleration, vibration, spectra })
             }
             Err(_) => Err(failed(statics)),
         }

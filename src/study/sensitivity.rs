@@ -1,4 +1,4 @@
-//! Which parameter to turn: how much the critical speed changes with each, in percent per percent.
+//! Which parameter to turn: how much the critical speed and the wave limit change with each, in percent per percent.
 
 use crate::mechanics::{self, Knob, Vibration};
 use crate::robot::{Damping, Motion, Robot};
@@ -15,9 +15,11 @@ pub struct Sensitivity {
     pub speed: f64,
     /// d ln ω/d ln p of the frequency with which stability is lost; none for divergence.
     pub frequency: Option<f64>,
+    /// d ln `v_w`/d ln p of the wave limit; none where no cable moves.
+    pub wave_limit: Option<f64>,
 }
 
-/// The relative derivatives of the critical speed of `robot` on `motion`, which is that of `critical`, with respect to E,
+/// The relative derivatives of the critical speed and of the wave limit of `robot` on `motion`, which is that of `critical`, with respect to E,
 /// A, μ, m, each prescribed tension (a factor on its law), α, β and g, in this order; 0 for those that are 0.
 ///
 /// Exact to rounding and to the accuracy of `critical`: the dependence of the static shapes, of L' and of L'' is in
@@ -46,20 +48,22 @@ pub async fn sensitivities_in_steps(
     step().await;
     let crossing = Crossing::new(&vibration, critical)?;
     let damping = robot.damping;
+    let waves = mechanics::wave_limit(robot, &statics, &rates);
     let sensitivity = |knob: Knob| {
-        // The shift per unit of ln p.
-        let shift = match knob {
-            Knob::Alpha => crossing.shift_by_damping(Damping { beta: 0.0, ..damping }),
-            Knob::Beta => crossing.shift_by_damping(Damping { alpha: 0.0, ..damping }),
+        // The shift per unit of ln p. Waves know no damping.
+        let (shift, wave_limit) = match knob {
+            Knob::Alpha => (crossing.shift_by_damping(Damping { beta: 0.0, ..damping }), waves.map(|_| 0.0)),
+            Knob::Beta => (crossing.shift_by_damping(Damping { alpha: 0.0, ..damping }), waves.map(|_| 0.0)),
             _ => {
-                let along = Vibration::along(robot, &statics, motion.direction(), knob);
-                crossing.shift(&along.ok_or(out_of_range)?)
+                let along = Vibration::along(robot, &statics, motion.direction(), knob).ok_or(out_of_range)?;
+                let of_waves = waves.and_then(|limit| mechanics::wave_limit_shift(&along, &limit));
+                (crossing.shift(&along), of_waves)
             }
         };
         let speed = shift.speed / critical.speed;
         let frequency = (critical.kind == Instability::Flutter).then(|| shift.omega / critical.eigenvalue.im);
         let finite = speed.is_finite() && frequency.is_none_or(f64::is_finite);
-        if finite { Ok(Sensitivity { knob, speed, frequency }) } else { Err(out_of_range) }
+        if finite { Ok(Sensitivity { knob, speed, frequency, wave_limit }) } else { Err(out_of_range) }
     };
     let mut found = Vec::new();
     for knob in Knob::all(robot) {

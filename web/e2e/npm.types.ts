@@ -26,7 +26,8 @@ if (analysis.feasible) {
     const growth: number | null = analysis.max_growth_rate;
     const [re, im]: [number, number] = analysis.eigenvalues[0] ?? [0, 0];
     const limit: number | undefined = analysis.wave_limit?.speed;
-    console.log(limit, growth, re, im, analysis.critical?.frequency_hz, analysis.cables[0]?.nodes);
+    const slack: number | undefined = analysis.slack_acceleration?.accelerating?.value;
+    console.log(slack, limit, growth, re, im, analysis.critical?.frequency_hz, analysis.cables[0]?.nodes);
 } else {
     const reason: string = analysis.reason;
     const none: null = analysis.critical;

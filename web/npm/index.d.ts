@@ -92,6 +92,25 @@ export interface WaveLimit {
     reeled_in: boolean;
 }
 
+/** The acceleration at which a cable goes slack. */
+export interface SlackLimit {
+    /** In m/s². */
+    value: number;
+    /** The cable, from 1. */
+    cable: number;
+}
+
+/** How hard the platform may speed up or brake from rest before a cable goes slack, by statics. Flown, slack comes earlier: at
+ *  up to 30 % less peak speed, which is half the acceleration. */
+export interface SlackAcceleration {
+    /** Along the motion; null where no cable goes slack. */
+    accelerating: SlackLimit | null;
+    /** Against it, as a positive number; null where no cable goes slack. */
+    braking: SlackLimit | null;
+    /** The platform's deviation in m per m/s². */
+    deviation_per_acceleration: number;
+}
+
 /** How stability is lost: an oscillation grows, or a displacement without oscillating. */
 export type Kind = "flutter" | "divergence";
 
@@ -127,6 +146,8 @@ export interface FeasibleAnalysis extends AnalysisFields {
     critical: Critical | null;
     /** Null where no cable moves. */
     wave_limit: WaveLimit | null;
+    /** Null where it could not be computed. */
+    slack_acceleration: SlackAcceleration | null;
 }
 
 /** The pose has none, or (null) the equilibrium could not be computed. */
@@ -142,6 +163,7 @@ export interface InfeasibleAnalysis extends AnalysisFields {
     status: "infeasible" | "failed";
     critical: null;
     wave_limit: null;
+    slack_acceleration: null;
 }
 
 /** One cable at rest. */

@@ -120,7 +120,8 @@ fn bar(
         painter.vline(end(then), y, Stroke::new(2.0, colour));
     }
     let frequency = one.frequency.map_or_else(String::new, |change| format!("\nFrequency {change:+} % per percent"));
-    response.explained(format!("Critical speed {:+} % per percent{frequency}", one.speed)).clicked()
+    let waves = one.wave_limit.map_or_else(String::new, |change| format!("\nWave limit {change:+} % per percent"));
+    response.explained(format!("Critical speed {:+} % per percent{frequency}{waves}", one.speed)).clicked()
 }
 
 /// How far a derivative may be off: the mesh that changes ln v by so much changes derivatives of ln v by about as much.
