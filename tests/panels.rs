@@ -19,7 +19,11 @@ mod interface;
 
 type App = Harness<'static, Tautline>;
 
-const PLOTS: [(&str, &str); 9] = [
+const PLOTS: [(&str, &str); 13] = [
+    ("Flight", "Deviation"),
+    ("Flight", "Tensions"),
+    ("Flight", "Gain"),
+    ("Flight", "Speed on the path"),
     ("This pose", "Eigenvalues"),
     ("This pose", "Modes"),
     ("This pose", "Growth"),

@@ -9,13 +9,14 @@ use super::files::{self, Clip};
 use super::notices::About;
 use super::panels::plots;
 use super::picture::{self, Format, Frame, Picture};
-use super::state::{Document, Plot, SheetTab};
+use super::state::{Document, Plot, SheetTab, UiState};
 use super::studies::Owner;
 use super::theme::{self, Tokens};
 use super::{Command, Tautline, canvas, fields, number, view_link};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
-use crate::scenario::{Parameter, link, table};
+use crate::scenario::{Parameter, Path, link, table};
+use crate::study::workspace;
 
 /// Said where there is nothing to save.
 const NOTHING: &str = "There is nothing to save yet: it is not on show, or still being computed.";
@@ -76,6 +77,8 @@ impl Tautline {
                 let text = export::designs(self.facts()).tsv();
                 self.files.copy(context, Clip { what: "The table of designs", text, more: ".".into() });
             }
+            Command::ShowFastest => self.session.windows.fastest = true,
+            Command::AddPath => self.add_path(),
             Command::Open => self.files.open(context),
             Command::Save(content) => self.save_content(context, content),
             Command::CopyModes => match export::plot(Plot::Modes, self.facts()) {
@@ -186,6 +189,23 @@ impl Tautline {
         }
     }
 
+    /// Gives the robot a path in the direction of its motion, at its speed: to the mirrored point where it is off the
+    /// middle, else a quarter of the workspace ahead.
+    fn add_path(&mut self) {
+        let mut document = self.present.document.clone();
+        let Ok((robot, motion)) = document.scenario.to_robot() else { return };
+        let [low, high] = workspace(&robot);
+        let (start, direction) = (motion.position(), motion.direction());
+        let ahead = direction.dot(&(0.5 * (low + high) - start));
+        let quarter = 0.25 * (high - low).component_mul(&direction).norm();
+        let way = if ahead > 0.2 * quarter { 2.0 * ahead } else { quarter };
+        let end = start + way * direction;
+        document.scenario.path = Some(Path { hold: 2.0, ..Path::new(vec![end.into()], motion.speed().max(1.0)) });
+        self.history.step(&self.present.document);
+        self.edit(document);
+        self.history.step(&self.present.document);
+    }
+
     /// A link to the robot as it is looked at.
     fn link(&self) -> String {
         let robot = link::encode(&self.present.document.scenario);
@@ -231,6 +251,13 @@ impl Tautline {
         self.notices.succeed(About::Robot);
         let document = document.called_rightly();
         let changed = document.scenario != self.present.document.scenario;
+        let has_path = document.scenario.path.is_some();
+        if has_path != self.present.document.scenario.path.is_some()
+            && [Plot::Line, Plot::Path].contains(&self.state.dock)
+        {
+            // A new path is what there is to look at.
+            self.state.dock = UiState::presented(has_path);
+        }
         self.present.document = document;
         if changed {
             number::forget_message(&self.context);
@@ -246,6 +273,7 @@ impl Tautline {
             Content::Scenario => (".json", Some(facts.document.scenario.to_json() + "\n")),
             Content::Analysis => ("-analysis.json", export::analysis(facts)),
             Content::Plot(plot) => (export::suffix(plot), export::plot(plot, facts).map(|table| table.csv())),
+            Content::Fastest => ("-fastest.csv", export::fastest(facts).map(|table| table.csv())),
             Content::Map => ("-map.csv", export::map(facts).map(|table| table.csv())),
             Content::PlotPicture(plot, chart, format) => {
                 let name = [&name, "-", plot.name(), format.ending()].concat();

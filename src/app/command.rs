@@ -29,6 +29,10 @@ pub enum Command {
     Design(Action),
     /// Put the table of what differs between the designs on the clipboard.
     CopyDesigns,
+    /// Give the robot a path from where the platform is.
+    AddPath,
+    /// Open the window about the fastest move along the path.
+    ShowFastest,
     /// Choose a scenario file and start from it.
     Open,
     /// Write something down in a file.

@@ -1,5 +1,7 @@
 //! What can be saved: the scenario, the analysis, and the numbers of plots as tables.
 
+mod moves;
+
 use std::f64::consts::TAU;
 
 use eframe::egui::Id;
@@ -26,6 +28,8 @@ pub enum Content {
     Plot(Plot),
     /// The numbers of the map.
     Map,
+    /// The fastest move along the path, as the command line writes it.
+    Fastest,
     /// A picture of a plot: the part of it that the chart of this name shows.
     PlotPicture(Plot, Id, Format),
     /// A picture of the canvas.
@@ -104,6 +108,9 @@ pub fn plot(plot: Plot, facts: Facts<'_>) -> Option<Table> {
         Plot::Mesh => study(Topic::Mesh).and_then(places),
         Plot::Sensitivities => sensitivities(facts),
         Plot::WhatIf => study(Topic::WhatIf).and_then(places),
+        Plot::Path => study(Topic::Path).and_then(|known| moves::stations(known, facts)),
+        Plot::Gain => study(Topic::Gains).and_then(moves::gains),
+        Plot::Deviation | Plot::Tensions => study(Topic::Flight).and_then(moves::flight),
     }
 }
 
@@ -118,12 +125,20 @@ pub fn suffix(plot: Plot) -> &'static str {
         Plot::Mesh => "-mesh.csv",
         Plot::Sensitivities => "-sensitivities.csv",
         Plot::WhatIf => "-what-if.csv",
+        Plot::Path => "-path.csv",
+        Plot::Gain => "-gain.csv",
+        Plot::Deviation | Plot::Tensions => "-flight.csv",
     }
 }
 
 /// The numbers of the map, where there are any.
 pub fn map(facts: Facts<'_>) -> Option<Table> {
     facts.studies.shown(Topic::Map).and_then(|shown| places(shown.known))
+}
+
+/// The fastest move along the path, where there is one.
+pub fn fastest(facts: Facts<'_>) -> Option<Table> {
+    moves::fastest(facts)
 }
 
 /// What differs between the designs, in the units of the screen.
@@ -204,7 +219,7 @@ fn places(known: &StudyResults) -> Option<Table> {
             paths = what_if.numbers.iter().map(|number| number.path.as_str()).collect();
             &paths
         }
-        Study::Modes { .. } | Study::Border { .. } | Study::Reach(_) => return None,
+        _ => return None,
     };
     let values: &[&str] = match answered().next()?.1 {
         Answer::Critical { .. } => &VERDICT,

@@ -10,7 +10,7 @@ use super::icons::{Icon, IconButton};
 use super::panels::answer;
 use super::panels::controls::{self, Groups};
 use super::panels::plots::{self, Slot};
-use super::state::{Plot, SheetTab};
+use super::state::{Plot, SheetTab, UiState};
 use super::{Tautline, canvas, gestures, regions, theme, transport, words};
 use crate::app::meaning::Explain as _;
 
@@ -90,11 +90,12 @@ impl Tautline {
     fn centre(&mut self, ui: &mut Ui, arrangement: &Arrangement) {
         self.canvas(ui, arrangement);
         if let Some(rect) = arrangement.strip {
-            self.show(Plot::Line);
+            let plot = UiState::presented(self.present.document.scenario.path.is_some());
+            self.show(plot);
             let facts = self.present.facts(self.state.settings, self.session.mode);
             ui.painter().rect_filled(rect, 0.0, theme::tokens(ui.visuals()).canvas);
             if let Some(view) = self.screen.canvas.view {
-                plots::strip(ui, rect, &view, facts, &mut self.commands);
+                plots::strip(&self.state, ui, rect, &view, facts, &mut self.commands);
             }
             regions::mark(ui, rect, "Dock");
         }
@@ -104,7 +105,12 @@ impl Tautline {
                 Form::Present => Slot::Present,
                 _ => Slot::Dock,
             };
-            let plot = if slot == Slot::Present { Plot::Line } else { self.state.dock };
+            let path = self.present.document.scenario.path.is_some();
+            let plot = match slot {
+                Slot::Present => UiState::presented(path),
+                Slot::Dock => self.state.dock_plot(path),
+                _ => self.state.dock,
+            };
             let place = self.plot(ui, rect, slot, plot);
             if arrangement.plots.is_none() {
                 self.screen.regions.plot = place;
@@ -159,7 +165,9 @@ impl Tautline {
             compact,
             legend: !matches!(arrangement.form, Form::Frame | Form::Present) && (compact || corner.height() >= LEGEND),
             pose_line: under
-                && (arrangement.strip.is_some() || self.state.dock == Plot::Line || arrangement.form == Form::Present),
+                && (arrangement.strip.is_some()
+                    || self.state.dock.is_along_a_way()
+                    || arrangement.form == Form::Present),
             picture: false,
         };
         let Self { screen, state, session, commands, .. } = self;

@@ -26,6 +26,7 @@ mod history;
 mod icons;
 mod keys;
 mod layout;
+mod limits;
 mod meaning;
 #[cfg(target_arch = "wasm32")]
 mod mirror;
@@ -166,6 +167,7 @@ impl Tautline {
             })
         });
         let opened = linked.or(start.scenario).map(Document::opened);
+        let is_opened = opened.is_some();
         let document = opened.or_else(|| last.clone()).unwrap_or_else(|| Document::opened(first()));
         let mut history = History::new(last.as_ref().unwrap_or(&document));
         // What was there the last time comes back with undo.
@@ -195,6 +197,10 @@ impl Tautline {
             tone: tone::Tone::default(),
         };
         app.session.embedded = start.embedded;
+        // A robot that is opened with a path is opened to look at the path.
+        if is_opened && app.present.document.scenario.path.is_some() && app.state.dock == state::Plot::Line {
+            app.state.dock = state::Plot::Path;
+        }
         if start.tour && !app.state.tour_taken && !start.embedded {
             app.session.tour = Some(tour::Tour::default());
         }
@@ -283,7 +289,9 @@ impl Tautline {
         let plots: Vec<state::Plot> = self.screen.plots.iter().copied().filter(|plot| !of_pose(plot)).collect();
         let plots = plots.as_slice();
         let at_rest = self.present.answers.all_current() && !self.context.input(|input| input.pointer.any_down());
-        let requests = studies::wanted(&self.present.document.scenario, &self.state, plots, critical, at_rest);
+        let mut requests = studies::wanted(&self.present.document.scenario, &self.state, plots, critical, at_rest);
+        let limits = self.session.windows.fastest.then_some(&self.state.limits);
+        requests.extend(studies::on_path(&self.present.document.scenario, plots, limits, &self.present.studies));
         let orders = self.present.studies.want(requests);
         let idle = !self.present.studies.is_working();
         // The pool has one study of each topic: the kept designs' go first, to make room for the present one's.
@@ -463,7 +471,7 @@ impl eframe::App for Tautline {
         self.screen(ui);
         let Self { screen, session, state, commands, present, .. } = self;
         let facts = present.facts(state.settings, session.mode);
-        windows::ui(&mut screen.windows, &mut session.windows, &mut state.settings, ui.ctx(), facts, commands);
+        windows::ui(&mut screen.windows, &mut session.windows, state, ui.ctx(), facts, commands);
         files::announce_drop(ui.ctx());
         words::ui(&mut self.session.word, ui.ctx());
         let facts = self.present.facts(self.state.settings, self.session.mode);

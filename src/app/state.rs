@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
+use crate::app::limits::LimitsAsked;
 use crate::app::settings::Settings;
 use crate::app::tour::Tour;
 use crate::app::what_if::WhatIfView;
@@ -70,11 +71,21 @@ pub enum Plot {
     Sensitivities,
     /// Critical speed against any number of the robot.
     WhatIf,
+    /// Speed flown and local limits along the path.
+    Path,
+    /// Gain of the move against its peak speed.
+    Gain,
+    /// The platform off its path against time, in a flight.
+    Deviation,
+    /// Cable tensions against time, in a flight.
+    Tensions,
 }
 
 /// What a plot is about: the tabs are grouped by this.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlotGroup {
+    /// A move along the path.
+    Flight,
     /// The present pose.
     Pose,
     /// More than one pose or direction.
@@ -85,11 +96,17 @@ pub enum PlotGroup {
 
 impl PlotGroup {
     /// All groups with their names and plots.
-    pub const ALL: [(Self, &'static str, &'static [Plot]); 3] = [
+    pub const ALL: [(Self, &'static str, &'static [Plot]); 4] = [
+        (Self::Flight, "Flight", &[Plot::Deviation, Plot::Tensions, Plot::Gain, Plot::Path]),
         (Self::Pose, "This pose", &[Plot::Eigenvalues, Plot::Modes, Plot::Growth]),
         (Self::Workspace, "Workspace", &[Plot::Line, Plot::Directions]),
         (Self::Model, "Model", &[Plot::Campbell, Plot::Sensitivities, Plot::WhatIf, Plot::Mesh]),
     ];
+
+    /// Its plots.
+    pub fn plots(self) -> &'static [Plot] {
+        Self::ALL.into_iter().find(|(group, ..)| *group == self).map_or(&[], |(_, _, plots)| plots)
+    }
 }
 
 impl Plot {
@@ -99,6 +116,7 @@ impl Plot {
             Self::Eigenvalues | Self::Modes | Self::Growth => PlotGroup::Pose,
             Self::Line | Self::Directions => PlotGroup::Workspace,
             Self::Campbell | Self::Sensitivities | Self::WhatIf | Self::Mesh => PlotGroup::Model,
+            Self::Path | Self::Deviation | Self::Tensions | Self::Gain => PlotGroup::Flight,
         }
     }
 
@@ -114,6 +132,10 @@ impl Plot {
             Self::Sensitivities => "What to change",
             Self::WhatIf => "What if",
             Self::Mesh => "Mesh error",
+            Self::Path => "Speed on the path",
+            Self::Deviation => "Deviation",
+            Self::Tensions => "Tensions",
+            Self::Gain => "Gain",
         }
     }
 
@@ -129,7 +151,19 @@ impl Plot {
             Self::Sensitivities => "change",
             Self::WhatIf => "whatif",
             Self::Mesh => "mesh",
+            Self::Path => "path",
+            Self::Deviation => "deviation",
+            Self::Tensions => "tensions",
+            Self::Gain => "gain",
         }
+    }
+
+    /// Those that can be under the robot: the ones on the way of the platform have its horizontal axis.
+    pub const UNDER_THE_ROBOT: [Self; 3] = [Self::Path, Self::Line, Self::Directions];
+
+    /// Whether it is about a way of the platform, so that it can share the robot's horizontal axis.
+    pub fn is_along_a_way(self) -> bool {
+        matches!(self, Self::Line | Self::Path)
     }
 
     /// All that can be opened.
@@ -275,6 +309,8 @@ pub struct UiState {
     /// What the plot "What if" is asked; a restart begins anew.
     #[serde(skip)]
     pub what_if: WhatIfView,
+    /// What the fastest allowed profile is asked.
+    pub limits: LimitsAsked,
     /// What people choose once.
     pub settings: Settings,
 }
@@ -345,8 +381,26 @@ pub struct Windows {
     pub validation: bool,
     /// The designs that are kept, and what differs.
     pub designs: bool,
+    /// The fastest profile that machine and limits allow on the path.
+    pub fastest: bool,
     /// Where the winches of a new robot are put.
     pub new_robot: bool,
+}
+
+impl UiState {
+    /// The plot under a robot that has no room for more.
+    pub fn presented(path: bool) -> Plot {
+        if path { Plot::Path } else { Plot::Line }
+    }
+
+    /// The plot under a robot whose document has a path, or has none.
+    pub fn dock_plot(&self, path: bool) -> Plot {
+        match self.dock {
+            Plot::Path if !path => Plot::Line,
+            dock if Plot::UNDER_THE_ROBOT.contains(&dock) => dock,
+            _ => Self::presented(path),
+        }
+    }
 }
 
 impl Default for UiState {
@@ -363,6 +417,7 @@ impl Default for UiState {
             map: MapView::default(),
             campbell_hz: 5.0,
             what_if: WhatIfView::default(),
+            limits: LimitsAsked::default(),
             settings: Settings::default(),
         }
     }
@@ -477,17 +532,21 @@ mod tests {
     fn every_plot_is_in_its_group() {
         // A plot that is missing here is named by the compiler.
         let place = |plot: Plot| match plot {
-            Plot::Eigenvalues => 0,
-            Plot::Modes => 1,
-            Plot::Growth => 2,
-            Plot::Line => 3,
-            Plot::Directions => 4,
-            Plot::Campbell => 5,
-            Plot::Sensitivities => 6,
-            Plot::WhatIf => 7,
-            Plot::Mesh => 8,
+            Plot::Deviation => 0,
+            Plot::Tensions => 1,
+            Plot::Gain => 2,
+            Plot::Path => 3,
+            Plot::Eigenvalues => 4,
+            Plot::Modes => 5,
+            Plot::Growth => 6,
+            Plot::Line => 7,
+            Plot::Directions => 8,
+            Plot::Campbell => 9,
+            Plot::Sensitivities => 10,
+            Plot::WhatIf => 11,
+            Plot::Mesh => 12,
         };
-        assert_eq!(Plot::all().map(place).collect::<Vec<_>>(), (0..9).collect::<Vec<_>>());
+        assert_eq!(Plot::all().map(place).collect::<Vec<_>>(), (0..13).collect::<Vec<_>>());
         for (group, _, plots) in PlotGroup::ALL {
             assert!(plots.iter().all(|plot| plot.group() == group), "{plots:?}");
         }

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use nalgebra::Complex;
 
-use crate::robot::{Motion, Robot, Vec2};
+use crate::flight::LimitOptions;
+use crate::robot::{Motion, Robot, Trajectory, Vec2};
 use crate::scenario::Scenario;
 use crate::stability::{ALLOWED_LIMIT, Steps, is_limit};
-use crate::study::{Answer, Directions, Mapped, Reach, Study, Varied, WhatIf};
+use crate::study::{Answer, Directions, Mapped, Reach, Study, Topic, Varied, WhatIf};
 
 use super::protocol::StudyJob;
 use super::variants::Variants;
@@ -22,6 +23,8 @@ const USUAL_COLUMNS: f64 = 20.0;
 const COARSE: usize = 4;
 /// How many critical speeds take as long as one stretch in which a value is looked for, about.
 const SPEEDS_OF_A_STRETCH: f64 = 8.0;
+/// How many critical speeds take as long as what a move does to vibrations, about.
+const SPEEDS_OF_A_MOVE: f64 = 20.0;
 /// The most numbers that a study may vary.
 const MOST_VARIED: usize = 2;
 /// The most places of a study, and the most directions at one place. The page asks for far fewer, so a message with more is
@@ -33,6 +36,7 @@ const MOST_DIRECTIONS: usize = 360;
 #[derive(Debug)]
 pub struct RobotStudy {
     robot: Robot,
+    scenario: Scenario,
     variants: Variants,
     study: Study,
 }
@@ -46,8 +50,13 @@ impl RobotStudy {
         check(&job.study)?;
         let scenario = Scenario::from_json(&job.scenario).map_err(|faults| faults.to_string())?;
         let (robot, _) = scenario.to_robot().map_err(|faults| faults.to_string())?;
-        let variants = Variants::new(scenario, job.study.varied())?;
-        Ok(Self { robot, variants, study: job.study.clone() })
+        if matches!(job.study.topic(), Topic::Path | Topic::Gains | Topic::Move | Topic::Allowed | Topic::Flight)
+            && scenario.path.is_none()
+        {
+            return Err("the scenario has no path".into());
+        }
+        let variants = Variants::new(scenario.clone(), job.study.varied())?;
+        Ok(Self { robot, scenario, variants, study: job.study.clone() })
     }
 
     /// All places, each once, in the order in which a picture becomes finer.
@@ -85,6 +94,7 @@ impl RobotStudy {
         let searches = match &self.study {
             Study::Map { directions: Directions::Worst(count), .. } => *count as f64,
             Study::Reach(_) => SPEEDS_OF_A_STRETCH,
+            Study::Gains { .. } | Study::Move | Study::Allowed(_) | Study::Flight { .. } => SPEEDS_OF_A_MOVE,
             _ => 1.0,
         };
         searches * elements_of_all * elements_of_all
@@ -95,11 +105,24 @@ impl RobotStudy {
         let places = Arc::clone(self);
         Steps::new(async move {
             let variant = |values: &[f64]| places.variants.at(values);
-            match places.study.varied_in_steps(&variant, place).await {
-                Some(answer) => answer,
-                None => places.study.answer_in_steps(&places.robot, place).await,
+            if let Some(answer) = places.study.varied_in_steps(&variant, place).await {
+                return answer;
             }
+            let moves = |speed| places.trajectory(speed);
+            if let Some(answer) = places.study.moved_in_steps(&places.robot, &moves, place).await {
+                return answer;
+            }
+            places.study.answer_in_steps(&places.robot, place).await
         })
+    }
+
+    /// The trajectory of the scenario's path, with another speed of its profile (m/s) where one is given.
+    fn trajectory(&self, speed: Option<f64>) -> Option<Trajectory> {
+        let mut scenario = self.scenario.clone();
+        if let (Some(path), Some(speed)) = (&mut scenario.path, speed) {
+            path.speed = speed;
+        }
+        scenario.trajectory()
     }
 
     /// The answer at a place where every attempt has failed.
@@ -165,6 +188,23 @@ fn check(study: &Study) -> Result<(), String> {
                 return Err(format!("{} numbers are varied; allowed: 1 or {MOST_VARIED}", numbers.len()));
             }
         }
+        Study::Path { limit, .. } => {
+            search_limit(*limit)?;
+        }
+        Study::Gains { speeds } => {
+            for speed in speeds {
+                search_limit(*speed)?;
+            }
+        }
+        Study::Allowed(allowed) => {
+            let LimitOptions { safety, slack, acceleration, winch_speed, winch_acceleration, .. } = allowed.options;
+            for limit in [Some(safety), slack, acceleration, winch_speed, winch_acceleration].into_iter().flatten() {
+                if !(limit > 0.0 && limit.is_finite()) {
+                    return Err(format!("a limit is {limit}; allowed: more than 0, finite"));
+                }
+            }
+        }
+        Study::Move | Study::Flight { .. } => {}
         Study::Reach(Reach { target, limit, .. }) => {
             search_limit(*limit)?;
             search_limit(*target)?;

@@ -17,6 +17,7 @@ const UNLIMITED: f64 = 1e12;
 
 /// What acts. A limit that is not given does not act.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct LimitOptions {
     /// κ: the speed keeps below this part of the local limits.
     pub safety: f64,
@@ -57,6 +58,7 @@ pub struct Place {
 
 /// The fastest move.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct FastestMove {
     /// At the places, from rest to rest; at a corner, where it rests, the last place of one leg is the first of the next.
     pub rows: Vec<MoveRow>,
@@ -64,6 +66,7 @@ pub struct FastestMove {
 
 /// The fastest move at one place.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct MoveRow {
     /// s in m.
     pub s: f64,
@@ -81,6 +84,7 @@ pub struct MoveRow {
 
 /// A cable at one place of a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct CableRow {
     /// L in m.
     pub length: f64,

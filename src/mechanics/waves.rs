@@ -14,6 +14,7 @@ const TOGETHER: f64 = 1e-9;
 
 /// The wave limit of a pose along a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "compute", derive(serde::Serialize, serde::Deserialize))]
 pub struct WaveLimit {
     /// The platform's speed in m/s.
     pub speed: f64,

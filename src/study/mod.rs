@@ -22,11 +22,13 @@
 //! # Ok::<(), tautline::robot::Faults>(())
 //! ```
 
+mod allowed;
 mod border;
 pub mod campbell;
 pub mod convergence;
 mod grid;
 mod local;
+mod on_path;
 mod path;
 pub mod reach;
 mod sensitivity;
@@ -36,9 +38,11 @@ mod verdict;
 mod what_if;
 
 pub use crate::mechanics::Knob;
+pub use allowed::{Allowed, Fastest};
 pub use border::Strip;
 pub use grid::{Grid, Line, evenly, workspace};
 pub use local::LocalProblem;
+pub use on_path::{MoveEffect, Moves, Station};
 pub use path::{LeastSpeed, PathSummary, WaveRatio, frozen_growth_in_steps, wave_ratio_in_steps};
 pub use reach::{Reach, Reached, Stretch};
 pub use sensitivity::{Sensitivity, sensitivities, sensitivities_in_steps};

@@ -3,14 +3,16 @@
 
 use nalgebra::Complex;
 
+use crate::flight::{self, Flight, FlightOptions};
 use crate::robot::{Motion, Robot, RobotSpec, Vec2};
 use crate::stability::steps::finish;
 use crate::study::campbell::{self, Track};
 use crate::study::grid::{coarse_first, coarse_first_in_a_row};
+use crate::study::on_path::{self, MoveEffect, Moves, Station};
 use crate::study::verdict::verdict_in_steps;
 use crate::study::{
-    Directions, Grid, Line, LocalProblem, NoEigenvalues, Reach, Stretch, Strip, Variant, Varied, Verdict, WhatIf,
-    compass, evenly,
+    Allowed, Directions, Fastest, Grid, Line, LocalProblem, NoEigenvalues, Reach, Stretch, Strip, Variant, Varied,
+    Verdict, WhatIf, compass, evenly,
 };
 
 /// What a map shows.
@@ -97,6 +99,28 @@ pub enum Study {
     WhatIf(WhatIf),
     /// The value of a number at which the critical speed is the wanted one: only [`Study::varied_in_steps`] answers it.
     Reach(Reach),
+    /// Local analysis at equally spaced stations of the scenario's path: only [`Study::moved_in_steps`] answers it.
+    Path {
+        /// How many stations, both ends among them.
+        count: usize,
+        /// See [`Study`].
+        limit: f64,
+    },
+    /// What the move along the scenario's path does to vibrations, at several speeds of its profile: only
+    /// [`Study::moved_in_steps`] answers it.
+    Gains {
+        /// In m/s, greater than 0, in rising order.
+        speeds: Vec<f64>,
+    },
+    /// The same of the move as it is: only [`Study::moved_in_steps`] answers it.
+    Move,
+    /// The fastest move along the scenario's path that limits allow: only [`Study::moved_in_steps`] answers it.
+    Allowed(Allowed),
+    /// The flight along the scenario's path: only [`Study::moved_in_steps`] answers it.
+    Flight {
+        /// What is asked of it.
+        options: FlightOptions,
+    },
 }
 
 /// What a study is about: of each topic at most one study is at work.
@@ -121,11 +145,21 @@ pub enum Topic {
     WhatIf,
     /// The value at which the critical speed is the wanted one.
     Reach,
+    /// Local analysis along the path.
+    Path,
+    /// What the move does to vibrations, against its speed.
+    Gains,
+    /// What the move does to vibrations.
+    Move,
+    /// The fastest move along the path.
+    Allowed,
+    /// The flight along the path.
+    Flight,
 }
 
 impl Topic {
     /// All of them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 14] = [
         Self::Line,
         Self::Map,
         Self::Directions,
@@ -135,6 +169,11 @@ impl Topic {
         Self::Border,
         Self::WhatIf,
         Self::Reach,
+        Self::Path,
+        Self::Gains,
+        Self::Move,
+        Self::Allowed,
+        Self::Flight,
     ];
 
     /// Its name for programs.
@@ -149,6 +188,11 @@ impl Topic {
             Self::Border => "border",
             Self::WhatIf => "what_if",
             Self::Reach => "reach",
+            Self::Path => "path",
+            Self::Gains => "gains",
+            Self::Move => "move",
+            Self::Allowed => "allowed",
+            Self::Flight => "flight",
         }
     }
 }
@@ -177,6 +221,14 @@ pub enum Answer {
     Border(Strip),
     /// Where the critical speed is the wanted one, from one value to the next.
     Reach(Stretch),
+    /// Local analysis at a station of a path; `None` where nothing is known.
+    Station(Option<Box<Station>>),
+    /// What a move does to vibrations, or why there is no such move.
+    Move(Result<MoveEffect, String>),
+    /// The fastest move, or why there is none.
+    Fastest(Box<Result<Fastest, String>>),
+    /// The flight, or why there is none.
+    Flight(Box<Result<Flight, String>>),
 }
 
 impl Study {
@@ -192,6 +244,11 @@ impl Study {
             Self::Border { .. } => Topic::Border,
             Self::WhatIf(_) => Topic::WhatIf,
             Self::Reach(_) => Topic::Reach,
+            Self::Path { .. } => Topic::Path,
+            Self::Gains { .. } => Topic::Gains,
+            Self::Move => Topic::Move,
+            Self::Allowed(_) => Topic::Allowed,
+            Self::Flight { .. } => Topic::Flight,
         }
     }
 
@@ -200,12 +257,13 @@ impl Study {
         match self {
             Self::Line { line, .. } => line.count,
             Self::Map { grid, .. } => grid.len(),
-            Self::Directions { count, .. } | Self::Campbell { count, .. } => *count,
+            Self::Directions { count, .. } | Self::Campbell { count, .. } | Self::Path { count, .. } => *count,
             Self::Mesh { counts, .. } => counts.len(),
-            Self::Modes { .. } => 1,
+            Self::Modes { .. } | Self::Move | Self::Allowed(_) | Self::Flight { .. } => 1,
             Self::Border { grid } => grid.ny,
             Self::WhatIf(what_if) => what_if.len(),
             Self::Reach(reach) => reach.len(),
+            Self::Gains { speeds } => speeds.len(),
         }
     }
 
@@ -266,8 +324,14 @@ impl Study {
             }
             Self::Modes { spectra } => Answer::Modes(Ok(campbell::track_in_steps(spectra).await)),
             Self::Border { grid } => Answer::Border(Strip::new(robot, grid, index).await),
-            // One robot alone has no other values.
-            Self::WhatIf(_) | Self::Reach(_) => self.unknown(index),
+            // One robot alone has no other values, and no path.
+            Self::WhatIf(_)
+            | Self::Reach(_)
+            | Self::Path { .. }
+            | Self::Gains { .. }
+            | Self::Move
+            | Self::Allowed(_)
+            | Self::Flight { .. } => self.unknown(index),
         }
     }
 
@@ -282,6 +346,33 @@ impl Study {
             Self::Reach(reach) => Some(Answer::Reach(reach.stretch_in_steps(variant, index).await)),
             _ => None,
         }
+    }
+
+    /// The answer at one place of a study of a path, whose trajectories `moves` builds; `None` of other studies. In
+    /// [steps](crate::steps).
+    pub async fn moved_in_steps(&self, robot: &Robot, moves: &Moves<'_>, index: usize) -> Option<Answer> {
+        let speed = match self {
+            Self::Path { count, limit } => {
+                let Some(trajectory) = moves(None) else { return Some(self.unknown(index)) };
+                let s = evenly(0.0, trajectory.length(), index, *count);
+                let station = on_path::station_in_steps(robot, &trajectory, s, *limit).await;
+                return Some(Answer::Station(Some(Box::new(station))));
+            }
+            Self::Allowed(allowed) => {
+                let Some(trajectory) = moves(None) else { return Some(self.unknown(index)) };
+                return Some(Answer::Fastest(Box::new(allowed.fastest_in_steps(robot, &trajectory).await)));
+            }
+            Self::Flight { options } => {
+                let Some(trajectory) = moves(None) else { return Some(self.unknown(index)) };
+                let flight = flight::fly_in_steps(robot, &trajectory, options).await;
+                return Some(Answer::Flight(Box::new(flight.map_err(|reason| reason.to_string()))));
+            }
+            Self::Gains { speeds } => speeds.get(index).copied(),
+            Self::Move => None,
+            _ => return None,
+        };
+        let Some(trajectory) = moves(speed) else { return Some(self.unknown(index)) };
+        Some(Answer::Move(on_path::effect_in_steps(robot, &trajectory).await))
     }
 
     /// The numbers that it varies.
@@ -307,6 +398,10 @@ impl Study {
             Self::Modes { .. } => Answer::Modes(Err(NoEigenvalues::Failed)),
             Self::Border { grid } => Answer::Border(Strip::unknown(grid.nx)),
             Self::Reach(_) => Answer::Reach(Stretch::default()),
+            Self::Path { .. } => Answer::Station(None),
+            Self::Allowed(_) => Answer::Fastest(Box::new(Err("it could not be computed".into()))),
+            Self::Flight { .. } => Answer::Flight(Box::new(Err("it could not be computed".into()))),
+            Self::Gains { .. } | Self::Move => Answer::Move(Err("it could not be computed".into())),
         }
     }
 }
@@ -353,7 +448,12 @@ mod tests {
             Topic::Modes => Some(Topic::Border),
             Topic::Border => Some(Topic::WhatIf),
             Topic::WhatIf => Some(Topic::Reach),
-            Topic::Reach => None,
+            Topic::Reach => Some(Topic::Path),
+            Topic::Path => Some(Topic::Gains),
+            Topic::Gains => Some(Topic::Move),
+            Topic::Move => Some(Topic::Allowed),
+            Topic::Allowed => Some(Topic::Flight),
+            Topic::Flight => None,
         };
         let all: Vec<Topic> = std::iter::successors(Some(Topic::Line), |topic| after(*topic)).collect();
         assert_eq!(all, Topic::ALL);

@@ -184,6 +184,7 @@ pub fn open_plot(app: &mut Harness<'static, Tautline>, title: &str) {
     let group = match title {
         "Eigenvalues" | "Modes" | "Growth" => "This pose",
         "Along the line" | "Directions" => "Workspace",
+        "Deviation" | "Tensions" | "Gain" | "Speed on the path" => "Flight",
         _ => "Model",
     };
     app.get_by_role_and_label(Role::RadioButton, group).click();

@@ -49,6 +49,7 @@ const TYPES = {
 
 /** The groups of plots with the titles in them; a plot's tab is there once its group is chosen. */
 export const PLOTS = {
+    "Flight": ["Deviation", "Tensions", "Gain", "Speed on the path"],
     "This pose": ["Eigenvalues", "Modes", "Growth"],
     "Workspace": ["Along the line", "Directions"],
     "Model": ["Speed diagram", "What to change", "What if", "Mesh error"],

@@ -13,7 +13,7 @@ use crate::app::state::{Plot, PlotGroup};
 use crate::app::{Start, Tautline, theme};
 use crate::compute::protocol::Topic;
 use crate::robot::Linearisation;
-use crate::scenario::presets;
+use crate::scenario::{Path, presets};
 
 /// What stands on buttons, handles and cards beside the drawings.
 const PRESSED: [&str; 10] = [
@@ -73,6 +73,7 @@ fn wait(app: &mut Harness<'static, Tautline>, ready: impl Fn(&Tautline) -> bool)
 fn app(theme: Theme) -> Harness<'static, Tautline> {
     let mut scenario = presets::PRESETS[0].scenario();
     scenario.name = Some("A <robot> & its-name".into());
+    scenario.path = Some(Path::new(vec![[4.0, 0.0]], 3.0));
     let start = Start { scenario: Some(scenario), ..Start::default() };
     let builder = Harness::builder().with_size(Vec2::new(1280.0, 800.0)).with_theme(theme);
     let mut app = builder.build_eframe(|context| Tautline::new(context, start));
@@ -145,8 +146,7 @@ fn every_plot_makes_a_picture_with_titles_units_and_numbers_and_nothing_to_press
         for plot in plots() {
             app.state_mut().state.plot = plot;
             app.run_steps(3);
-            let studies = [Topic::Line, Topic::Directions, Topic::Campbell, Topic::Mesh];
-            wait(&mut app, |app| studies.iter().all(|topic| !app.at_work().contains(topic)));
+            wait(&mut app, |app| app.at_work().is_empty());
             wait(&mut app, |app| {
                 app.present.answers.sensitivities().is_some() && app.plot_picture(plot, Id::NULL, Format::Svg).is_some()
             });
@@ -168,6 +168,10 @@ fn every_plot_makes_a_picture_with_titles_units_and_numbers_and_nothing_to_press
                 "directions" => &["Critical speed by direction, m/s"],
                 "speed" => &["frequency, Hz", "growth rate, 1/s", "speed, m/s"],
                 "mesh" => &["Critical speed against the mesh", "elements per cable", "critical speed, m/s"],
+                "path" => &["Speed on the path", "x, m", "speed, m/s", "wave limit", "flown"],
+                "deviation" => &["off its path", "time, s", "deviation, mm", "along x", "along y"],
+                "tensions" => &["Cable tensions", "time, s", "tension at the platform, N"],
+                "gain" => &["Gain of the move", "peak speed, m/s", "vibration after / before", "frozen"],
                 "change" => &["What to change", "Percent of critical speed"],
                 _ => &[],
             };

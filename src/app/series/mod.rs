@@ -1,6 +1,9 @@
 //! What the plots of studies show, without colours: answers by place turned into points and sentences.
 
 mod findings;
+mod flight;
+mod gains;
+mod path;
 mod segments;
 mod what_if;
 
@@ -13,6 +16,9 @@ use crate::stability::{Critical, first_lowest};
 use crate::study::campbell::Track;
 use crate::study::convergence::{self, Convergence};
 use crate::study::{Answer, Study, Verdict, compass, evenly};
+pub use flight::{envelope, kept_within, nearest_sample, tensions, wobble};
+pub use gains::{GainPoint, Gains, effect, fastest, of_the_move};
+pub use path::{Stations, Way};
 pub use what_if::Against;
 
 use segments::{Sample, segments};
@@ -26,6 +32,8 @@ pub enum Abscissa {
     Y,
     /// The way along the line from where it enters the workspace.
     Along,
+    /// The way along a path from its beginning.
+    Path,
 }
 
 impl Abscissa {
@@ -35,6 +43,7 @@ impl Abscissa {
             Self::X => "x, m",
             Self::Y => "y, m",
             Self::Along => "way along the line, m",
+            Self::Path => "way along the path, m",
         }
     }
 
@@ -43,7 +52,7 @@ impl Abscissa {
         match self {
             Self::X => format!("x = {at:.decimals$} m"),
             Self::Y => format!("y = {at:.decimals$} m"),
-            Self::Along => format!("{at:.decimals$} m"),
+            Self::Along | Self::Path => format!("{at:.decimals$} m"),
         }
     }
 }
@@ -96,7 +105,7 @@ impl Along {
         match self.abscissa {
             Abscissa::X => position[0],
             Abscissa::Y => position[1],
-            Abscissa::Along => {
+            Abscissa::Along | Abscissa::Path => {
                 (position[0] - self.from[0]) * self.direction[0] + (position[1] - self.from[1]) * self.direction[1]
             }
         }
@@ -107,7 +116,7 @@ impl Along {
         match self.abscissa {
             Abscissa::X => [at, y],
             Abscissa::Y => [x, at],
-            Abscissa::Along => {
+            Abscissa::Along | Abscissa::Path => {
                 let way = at - self.place([x, y]);
                 [x + way * self.direction[0], y + way * self.direction[1]]
             }

@@ -5,11 +5,13 @@
 //! on ([`StudyRequest`]). Until a first picture of the new one is there, the last one stays on show and is marked as old.
 
 mod joined;
+mod on_path;
 mod request;
 mod shared;
 mod varied;
 
 pub use joined::Joined;
+pub use on_path::on_path;
 pub use request::{StudyRequest, wanted};
 pub use shared::{KEPT, Owner, SharedPool};
 

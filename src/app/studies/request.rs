@@ -7,6 +7,7 @@ use crate::robot::{Damping, Linearisation, Robot};
 use crate::scenario::Scenario;
 use crate::scenario::json::Motion;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
+use crate::scenario::{Path, ProfileKind};
 use crate::study::{Directions, Grid, Line, Mapped, Study, WhatIf, workspace};
 
 /// About how many intervals a map has; spread so that they are as wide as they are high.
@@ -43,7 +44,11 @@ pub struct StudyRequest {
 impl StudyRequest {
     /// `study` of the robot of `scenario`.
     pub fn new(scenario: &Scenario, study: Study) -> Self {
-        let mut scenario = Scenario { name: None, motion: ANY_MOTION, ..scenario.clone() };
+        let path = path_for(scenario, study.topic());
+        // A path begins where the platform is.
+        let position = if path.is_some() { scenario.motion.position } else { ANY_MOTION.position };
+        let motion = Motion { position, ..ANY_MOTION };
+        let mut scenario = Scenario { name: None, motion, path, ..scenario.clone() };
         if matches!(study, Study::Mesh { .. }) {
             scenario.elements_per_cable = ANY_ELEMENTS;
         }
@@ -78,6 +83,27 @@ impl StudyRequest {
             }
             study => study.len().div_ceil(4),
         }
+    }
+}
+
+/// The path as far as a study of this topic depends on it.
+fn path_for(scenario: &Scenario, topic: Topic) -> Option<Path> {
+    let path = scenario.path.clone();
+    match topic {
+        // Where it leads, and not how fast.
+        Topic::Path => path.map(|path| Path {
+            profile: ProfileKind::Quintic,
+            speed: 1.0,
+            acceleration: 1.0,
+            jerk: 1.0,
+            hold: 0.0,
+            ..path
+        }),
+        // The study has its own speeds.
+        Topic::Gains => path.map(|path| Path { speed: 1.0, hold: 0.0, ..path }),
+        Topic::Move | Topic::Allowed => path.map(|path| Path { hold: 0.0, ..path }),
+        Topic::Flight => path,
+        _ => None,
     }
 }
 

@@ -1,6 +1,7 @@
 //! Windows over the page.
 
 mod designs;
+mod fastest;
 mod new_robot;
 mod settings;
 mod shortcuts;
@@ -11,8 +12,7 @@ use eframe::egui::{Align2, Context, Id, LayerId, Order, ScrollArea, Ui, Window};
 
 use crate::app::command::Command;
 use crate::app::facts::Facts;
-use crate::app::settings::Settings;
-use crate::app::state::Windows;
+use crate::app::state::{UiState, Windows};
 
 /// What windows keep from frame to frame.
 #[derive(Default)]
@@ -36,18 +36,21 @@ impl Runtime {
 pub fn ui(
     runtime: &mut Runtime,
     open: &mut Windows,
-    settings: &mut Settings,
+    state: &mut UiState,
     context: &Context,
     facts: Facts<'_>,
     commands: &mut Vec<Command>,
 ) {
-    window(context, "Settings", 560.0, &mut open.settings, |ui| settings::ui(settings, ui));
+    window(context, "Settings", 560.0, &mut open.settings, |ui| settings::ui(&mut state.settings, ui));
     window(context, "Keyboard shortcuts", 560.0, &mut open.shortcuts, shortcuts::ui);
     window(context, "Theory", theory::WIDEST, &mut open.theory, |ui| theory::ui(&mut runtime.theory, ui));
     window(context, "Validation", 700.0, &mut open.validation, |ui| {
         validation::ui(&mut runtime.validation, ui, commands);
     });
     window(context, "Designs", 620.0, &mut open.designs, |ui| designs::ui(ui, facts, commands));
+    window(context, "Fastest allowed", 560.0, &mut open.fastest, |ui| {
+        fastest::ui(&mut state.limits, ui, facts, commands);
+    });
     let mut made = false;
     window(context, "New robot", 640.0, &mut open.new_robot, |ui| {
         made = new_robot::ui(&mut runtime.new_robot, ui, commands);
@@ -62,13 +65,14 @@ pub fn ui(
 /// Closes the window that is in front of all others, if one is open.
 pub fn close_foremost(open: &mut Windows, context: &Context) -> bool {
     let layers: Vec<LayerId> = context.memory(|memory| memory.layer_ids().collect());
-    let Windows { settings, shortcuts, theory, validation, designs, new_robot } = open;
+    let Windows { settings, shortcuts, theory, validation, designs, fastest, new_robot } = open;
     let all = [
         ("Settings", settings),
         ("Keyboard shortcuts", shortcuts),
         ("Theory", theory),
         ("Validation", validation),
         ("Designs", designs),
+        ("Fastest allowed", fastest),
         ("New robot", new_robot),
     ];
     let place = |title| layers.iter().position(|layer| *layer == LayerId::new(Order::Middle, id(title)));

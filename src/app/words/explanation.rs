@@ -11,6 +11,7 @@ use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::panels::answer;
+use crate::app::series;
 use crate::app::state::Session;
 use crate::app::theme;
 use crate::app::tour::Tour;
@@ -98,6 +99,7 @@ fn of_search(facts: Facts<'_>, answer: &SearchEnd) -> String {
         }
     };
     sentences.extend(waves(facts));
+    sentences.extend(series::of_the_move(facts));
     if answer.critical.is_some() {
         sentences.push("The critical speed is found with time frozen; it is not a safety margin.".into());
     }

@@ -73,6 +73,7 @@ pub fn of(word: Word) -> Vec<PicturePart> {
         Word::CriticalSpeed => critical_speed(),
         Word::FrozenTime => frozen_time(),
         Word::WaveLimit => wave_limit(),
+        Word::WaveRatio => wave_ratio(),
         Word::Gain => gain(),
         Word::Flutter => over_time(|t| -3.0 * (2.2 * t).exp() * (5.0 * TAU * t).sin(), Ink::Critical),
         Word::Divergence => over_time(|t| -2.5 * (2.55 * t).exp(), Ink::Critical),
@@ -166,6 +167,21 @@ fn wave_limit() -> Vec<PicturePart> {
         PicturePart::Text([112.0, 11.0], MIDDLE, "waves run", Ink::Waves),
         PicturePart::Arrow([[76.0, 66.0], [148.0, 66.0]], Ink::Accent),
         PicturePart::Text([112.0, 80.0], MIDDLE, "the winch reels", Ink::Accent),
+    ]
+}
+
+fn wave_ratio() -> Vec<PicturePart> {
+    let (bottom, limit) = (72.0, |t: f32| 22.0 + 14.0 * (2.0 * t - 1.0).powi(2));
+    let across = |t: f32| LEFT + (RIGHT - LEFT) * t;
+    // The speed of a quintic: 16 t² (1 − t)² of its peak.
+    let flown = |t: f32| bottom - 33.0 * 16.0 * t * t * (1.0 - t) * (1.0 - t);
+    vec![
+        dashed(curve(|t| [across(t), limit(t)]), Ink::Waves),
+        line(curve(|t| [across(t), flown(t)]), Ink::Accent),
+        thin([[LEFT, bottom], [RIGHT, bottom]]),
+        PicturePart::Arrow([[across(0.5), bottom], [across(0.5), limit(0.5)]], Ink::Weak),
+        PicturePart::Text([LEFT + 38.0, 14.0], MIDDLE, "wave limit", Ink::Waves),
+        PicturePart::Text([across(0.5), 84.0], MIDDLE, "speed along the path", Ink::Accent),
     ]
 }
 

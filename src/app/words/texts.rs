@@ -71,7 +71,15 @@ impl Word {
                        no eigenvalues and no damping. In all robots tried, vibration without bound began only beyond \
                        it; below, vibrations stay bounded, which does not mean small.",
                 equation: "least c/|w| at v = 1, c = √(N/(λ μ)), |w| = |L′| (k + 1)/n",
-                see_also: &[Self::CriticalSpeed, Self::FrozenTime, Self::Reeling, Self::Gain],
+                see_also: &[Self::CriticalSpeed, Self::FrozenTime, Self::Reeling, Self::Gain, Self::WaveRatio],
+            },
+            Self::WaveRatio => Card {
+                title: "Wave ratio ρ of a move",
+                text: "How near a move comes to the wave limit: the largest of its speed over the limit at the same place. \
+                       Below 1 no vibration grew without bound in any robot tried, though it can grow by half or \
+                       more. Above 1 growth has no bound.",
+                equation: "ρ = max over s of v(s)/wave limit(s)",
+                see_also: &[Self::WaveLimit, Self::Gain, Self::CriticalSpeed],
             },
             Self::Gain => Card {
                 title: "Gain of a move",
@@ -79,7 +87,7 @@ impl Word {
                        20 % larger; below 1 every vibration ends smaller than it began. Time runs here and is not \
                        frozen. It is a number and no verdict.",
                 equation: "size of a vibration: √(energy/ω), from rest to rest",
-                see_also: &[Self::FrozenTime, Self::WaveLimit, Self::ModeShape],
+                see_also: &[Self::FrozenTime, Self::WaveRatio, Self::ModeShape],
             },
             Self::Flutter => Card {
                 title: "Flutter",

@@ -9,6 +9,8 @@ pub enum Word {
     FrozenTime,
     /// The wave limit.
     WaveLimit,
+    /// How near a move comes to the wave limit.
+    WaveRatio,
     /// The gain of a move.
     Gain,
     /// Flutter.
@@ -43,12 +45,13 @@ pub enum Word {
 
 impl Word {
     /// All of them, what comes first to a reader first.
-    pub const ALL: [Self; 18] = [
+    pub const ALL: [Self; 19] = [
         Self::CriticalSpeed,
         Self::Flutter,
         Self::Divergence,
         Self::FrozenTime,
         Self::WaveLimit,
+        Self::WaveRatio,
         Self::Gain,
         Self::ModeShape,
         Self::GrowthRate,

@@ -17,6 +17,10 @@ const HATCH: f32 = 8.0;
 /// Room around a word on its ground, in points.
 const PILL: Vec2 = Vec2::new(3.0, 1.0);
 
+/// The dashes of lines that belong together, each with the gaps that follow; the first has none.
+const DASHES: [(&[f32], &[f32]); 5] =
+    [(&[], &[]), (&[8.0], &[4.0]), (&[2.5], &[3.0]), (&[9.0, 2.0], &[3.0, 3.0]), (&[9.0, 2.0, 2.0], &[3.0, 3.0, 3.0])];
+
 /// How a line is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
@@ -26,6 +30,8 @@ pub enum Dash {
     Dashed,
     /// The wave limit.
     Dotted,
+    /// One of several lines that belong together, told apart by their dashes: 0 is without gaps.
+    Pattern(usize),
     /// What belongs to a kept design.
     Design(Letter),
 }
@@ -214,7 +220,7 @@ impl Chart {
         }
     }
 
-    /// A dot that is filled, a triangle that points up, a diamond or a ring.
+    /// A dot that is filled, a triangle that points up, a diamond, a ring or a cross.
     pub fn mark(&self, at: Pos2, mark: Symbol, radius: f32, colour: Color32) {
         let up = |x: f32, y: f32| at + radius * Vec2::new(x, y);
         match mark {
@@ -227,6 +233,11 @@ impl Chart {
             Symbol::Triangle => {
                 let corners = vec![up(0.0, -1.15), up(1.0, 0.75), up(-1.0, 0.75)];
                 self.painter.add(Shape::convex_polygon(corners, colour, Stroke::NONE));
+            }
+            Symbol::Cross => {
+                for line in [[up(-1.0, -1.0), up(1.0, 1.0)], [up(-1.0, 1.0), up(1.0, -1.0)]] {
+                    self.painter.line_segment(line, Stroke::new(2.25, colour));
+                }
             }
             Symbol::Diamond => {
                 let corners = vec![up(0.0, -1.2), up(1.2, 0.0), up(0.0, 1.2), up(-1.2, 0.0)];
@@ -285,6 +296,8 @@ pub enum Symbol {
     Triangle,
     /// Of a kept design.
     Diamond,
+    /// Where a cable goes slack.
+    Cross,
 }
 
 /// Draws a line.
@@ -304,6 +317,10 @@ pub fn draw_line(painter: &Painter, points: Vec<Pos2>, stroke: Stroke, dash: Das
                 Letter::C => (&[15.0], &[4.0]),
                 Letter::D => (&[9.0, 2.0, 2.0], &[3.0, 3.0, 3.0]),
             };
+            painter.extend(Shape::dashed_line_with_offset(&points, stroke, dashes, gaps, 0.0));
+        }
+        Dash::Pattern(which) if short && which % DASHES.len() > 0 => {
+            let (dashes, gaps) = DASHES[which % DASHES.len()];
             painter.extend(Shape::dashed_line_with_offset(&points, stroke, dashes, gaps, 0.0));
         }
         Dash::Dotted if short => painter.extend(Shape::dashed_line(&points, stroke, 2.5, 3.0)),

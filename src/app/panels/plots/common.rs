@@ -81,6 +81,9 @@ pub fn topic(plot: Plot) -> Option<Topic> {
         Plot::Campbell => Some(Topic::Campbell),
         Plot::Mesh => Some(Topic::Mesh),
         Plot::WhatIf => Some(Topic::WhatIf),
+        Plot::Path => Some(Topic::Path),
+        Plot::Gain => Some(Topic::Gains),
+        Plot::Deviation | Plot::Tensions => Some(Topic::Flight),
         Plot::Eigenvalues | Plot::Modes | Plot::Growth | Plot::Sensitivities => None,
     }
 }
@@ -130,7 +133,8 @@ pub fn speed(facts: Facts<'_>, critical: &Critical) -> String {
 /// The study's answers, once there are any. Where the present pose cannot rest, what is of one pose is an earlier one's.
 pub fn study(topic: Topic, facts: Facts<'_>) -> Option<Shown<'_>> {
     let shown = facts.studies.shown(topic).filter(|shown| shown.known.answered() > 0)?;
-    let of_this_pose = matches!(topic, Topic::Line | Topic::WhatIf) || !facts.answers.pose_failed();
+    let of_this_pose = matches!(topic, Topic::Line | Topic::WhatIf | Topic::Path | Topic::Gains | Topic::Flight)
+        || !facts.answers.pose_failed();
     Some(Shown { current: shown.current && of_this_pose, ..shown })
 }
 

@@ -7,6 +7,7 @@ use eframe::egui::{
 
 use super::axis::signed;
 use super::common::{self, PlotPlace, Slot};
+use super::flight;
 use super::range::VisibleRange;
 use crate::app::canvas;
 use crate::app::command::Command;
@@ -20,6 +21,9 @@ use crate::app::theme;
 
 /// From this width on, in points, groups and tools stand in one row.
 const WIDE: f32 = 430.0;
+
+/// The least room around the name of a group in large letters, in points.
+const LEAST_AROUND: f32 = 10.0;
 
 /// What a header may change.
 pub struct Header<'a> {
@@ -53,7 +57,7 @@ impl Header<'_> {
         match slot {
             Slot::Dock => {
                 ui.horizontal(|ui| {
-                    self.tabs(ui, PlotGroup::Workspace);
+                    self.tabs(ui, &under_the_robot(facts));
                     let place = PlotPlace { slot, plot: *self.open, wheel };
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         self.more(place, ui, facts, commands);
@@ -66,7 +70,7 @@ impl Header<'_> {
             Slot::Sheet | Slot::Under => {
                 ui.horizontal_wrapped(|ui| {
                     self.group_list(ui);
-                    self.tabs(ui, self.open.group());
+                    self.tabs(ui, self.open.group().plots());
                 });
             }
             Slot::Right | Slot::Second | Slot::Large if ui.available_width() >= WIDE => {
@@ -79,7 +83,7 @@ impl Header<'_> {
                     });
                 });
                 ui.horizontal(|ui| {
-                    self.tabs(ui, self.open.group());
+                    self.tabs(ui, self.open.group().plots());
                     let place = PlotPlace { slot, plot: *self.open, wheel };
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| caption(place, ui, facts, commands));
                 });
@@ -92,7 +96,7 @@ impl Header<'_> {
                         self.groups(ui);
                     });
                 });
-                ui.horizontal_wrapped(|ui| self.tabs(ui, self.open.group()));
+                ui.horizontal_wrapped(|ui| self.tabs(ui, self.open.group().plots()));
                 ui.horizontal(|ui| {
                     let place = PlotPlace { slot, plot: *self.open, wheel };
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -125,15 +129,26 @@ impl Header<'_> {
     /// The groups beside each other, as one switch.
     fn groups(&mut self, ui: &mut Ui) {
         let tokens = theme::tokens(ui.visuals());
-        let font = TextStyle::Button.resolve(ui.style());
         let height = ui.spacing().interact_size.y.max(28.0);
         let width = ui.available_width().min(290.0);
         let (rect, ground) = ui.allocate_exact_size(Vec2::new(width, height), Sense::hover());
         ui.painter().rect_filled(rect, 6.0, tokens.field);
-        let count = PlotGroup::ALL.len();
-        for (i, (group, name, plots)) in PlotGroup::ALL.into_iter().enumerate() {
-            #[expect(clippy::cast_precision_loss)] // Three.
-            let [left, right] = [i, i + 1].map(|i| rect.left() + rect.width() * i as f32 / count as f32);
+        // As wide as their words, with the same room around each; in small letters where there is little.
+        let lengths = |font: &FontId| {
+            PlotGroup::ALL.map(|(_, name, _)| {
+                ui.painter().layout_no_wrap(name.to_owned(), font.clone(), Color32::PLACEHOLDER).size().x
+            })
+        };
+        #[expect(clippy::cast_precision_loss)] // Four.
+        let around = |lengths: &[f32]| (rect.width() - lengths.iter().sum::<f32>()) / lengths.len() as f32;
+        let [large, small] = [TextStyle::Button, TextStyle::Small].map(|style| style.resolve(ui.style()));
+        let font = if around(&lengths(&large)) < LEAST_AROUND { small } else { large };
+        let lengths = lengths(&font);
+        let around = around(&lengths);
+        let mut right = rect.left();
+        for ((group, name, plots), length) in PlotGroup::ALL.into_iter().zip(lengths) {
+            let left = right;
+            right += length + around;
             let part = Rect::from_x_y_ranges(left..=right, rect.y_range());
             let chosen = self.open.group() == group;
             let response = ui.interact(part, ground.id.with(name), Sense::click());
@@ -171,10 +186,8 @@ impl Header<'_> {
         *self.open = plot.unwrap_or(*self.open);
     }
 
-    /// The plots of a group, as words with a line under the one on show.
-    fn tabs(&mut self, ui: &mut Ui, group: PlotGroup) {
-        let all = PlotGroup::ALL.into_iter().find(|(other, ..)| *other == group);
-        let plots = all.map_or(&[][..], |(_, _, plots)| plots);
+    /// Plots as words with a line under the one on show.
+    fn tabs(&mut self, ui: &mut Ui, plots: &[Plot]) {
         // Smaller words, closer together, rather than a second row.
         let [large, small] = [TextStyle::Button, TextStyle::Small].map(|style| style.resolve(ui.style()));
         let width = |plot: &Plot| {
@@ -227,7 +240,7 @@ impl Header<'_> {
             }
         }
         // In the dock the line is as wide as the robot.
-        let shared = place.slot.is_under_the_robot() && place.plot == Plot::Line;
+        let shared = place.slot.is_under_the_robot() && place.plot.is_along_a_way();
         let fits = if shared { *self.camera == Camera::default() } else { range == VisibleRange::Fit };
         let fit = tool(ui, Icon::Fit, "Fit", &format!("Fit {title}")).selected(fits).show(ui);
         if fit.explained("Shows what matters").clicked() {
@@ -252,6 +265,10 @@ impl Header<'_> {
             commands.push(Command::CopyModes);
             ui.close();
         }
+        if place.plot == Plot::Path && ui.button("Fastest allowed…").clicked() {
+            commands.push(Command::ShowFastest);
+            ui.close();
+        }
         if ui.button("What am I seeing?").clicked() {
             toggle_explanation(ui.ctx(), place);
             if place.slot != Slot::Dock {
@@ -264,6 +281,12 @@ impl Header<'_> {
             ui.add(Label::new((self.explanation)(place.plot)).wrap());
         }
     }
+}
+
+/// The plots that can be under the robot: that of the path only where there is one.
+fn under_the_robot(facts: Facts<'_>) -> Vec<Plot> {
+    let path = facts.document.scenario.path.is_some();
+    Plot::UNDER_THE_ROBOT.into_iter().filter(|plot| path || *plot != Plot::Path).collect()
 }
 
 /// Whether a plot has a part that can be out of sight.
@@ -294,6 +317,7 @@ fn caption(place: PlotPlace, ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<C
         Plot::Growth => kept.unwrap_or_else(|| "Above zero something grows.".into()),
         Plot::Sensitivities => kept.unwrap_or_else(|| "Click one to turn it.".into()),
         Plot::WhatIf => "Click to set the value.".into(),
+        Plot::Path | Plot::Gain | Plot::Deviation | Plot::Tensions => flight::caption(place.plot, facts),
     };
     ui.add(Label::new(RichText::new(text).weak().small()).truncate());
 }

@@ -359,7 +359,7 @@ impl Drawing<'_> {
 }
 
 /// Writes a curve's name where it covers least.
-fn label_curve(chart: &mut Chart, name: &str, colour: eframe::egui::Color32, runs: &[Vec<[f64; 2]>]) {
+pub(super) fn label_curve(chart: &mut Chart, name: &str, colour: eframe::egui::Color32, runs: &[Vec<[f64; 2]>]) {
     let Some(longest) = runs.iter().max_by_key(|run| run.len()) else { return };
     let spots: Vec<Pos2> = [0.5, 0.3, 0.7, 0.4, 0.6, 0.25, 0.75, 0.2, 0.8, 0.35, 0.65, 0.1, 0.9]
         .into_iter()

@@ -6,6 +6,7 @@ mod chart;
 mod common;
 mod directions;
 mod eigenvalues;
+mod flight;
 mod growth;
 mod header;
 mod labels;
@@ -18,15 +19,14 @@ mod what_if;
 
 use eframe::egui::{Align, Context, Id, Label, Layout, Rect, TextStyle, Ui, UiBuilder, Vec2};
 
-pub use common::Slot;
-pub use line::strip;
+pub use common::{Slot, progress_of};
 
 use crate::app::canvas::View;
 use crate::app::command::Command;
 use crate::app::facts::Facts;
 use crate::app::gestures;
 use crate::app::picture::PLOT;
-use crate::app::state::{Plot, PlotGroup, Session, UiState};
+use crate::app::state::{Plot, Session, UiState};
 use common::PlotPlace;
 use header::Header;
 use range::VisibleRange;
@@ -52,11 +52,11 @@ pub fn ui(
         Slot::Right | Slot::Sheet => state.plot,
         Slot::Second => state.second,
         Slot::Dock | Slot::Under => state.dock,
-        Slot::Present | Slot::Picture => Plot::Line,
+        Slot::Present | Slot::Picture => UiState::presented(facts.document.scenario.path.is_some()),
         Slot::Large => session.large.unwrap_or(state.plot),
     };
-    if slot == Slot::Dock && open.group() != PlotGroup::Workspace {
-        open = Plot::Line;
+    if slot == Slot::Dock {
+        open = state.dock_plot(facts.document.scenario.path.is_some());
     }
     let explanation = |plot| explanation(plot, facts);
     let mut header =
@@ -75,8 +75,8 @@ pub fn ui(
         let rect = Rect::from_min_max(room.min, room.max - Vec2::new(0.0, foot));
         ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
             let told = slot == Slot::Under && header::explains(ui.ctx(), place);
-            if slot.is_under_the_robot() && place.plot == Plot::Line && !told {
-                line::ui(place, view, ui, facts, commands);
+            if slot.is_under_the_robot() && place.plot.is_along_a_way() && !told {
+                draw(place, view, state, ui, facts, commands);
             } else {
                 gestures::scroll(ui, |ui| explained(place, view, state, ui, facts, commands));
             }
@@ -98,6 +98,16 @@ pub fn ui(
         Slot::Large => session.large = session.large.map(|_| open),
     }
     rect
+}
+
+/// Draws the study along the path, or along the line where there is no path, as a mere strip under the robot.
+pub fn strip(state: &UiState, ui: &mut Ui, rect: Rect, view: &View, facts: Facts<'_>, commands: &mut Vec<Command>) {
+    if facts.document.scenario.path.is_some() {
+        let asked = flight::speeds::Asked { view: Some(view), now: flight::now(state), limits: &state.limits };
+        flight::speeds::strip(ui, rect, asked, facts);
+    } else {
+        line::strip(ui, rect, view, facts, commands);
+    }
 }
 
 /// Draws a plot for a picture: the part of it that is on show in the `chart` of this name on the `screen`.
@@ -123,6 +133,10 @@ pub fn picture_title(plot: Plot, facts: Facts<'_>) -> String {
         Plot::Mesh => "Critical speed against the mesh".into(),
         Plot::Sensitivities => "What to change for another critical speed".into(),
         Plot::WhatIf => "Critical speed and frequency against a number of the robot".into(),
+        Plot::Path => "Speed on the path and its limits".into(),
+        Plot::Gain => "Gain of the move against its peak speed".into(),
+        Plot::Deviation => "Platform off its path in a flight".into(),
+        Plot::Tensions => "Cable tensions at the platform in a flight".into(),
         _ => plot.title().into(),
     }
 }
@@ -162,20 +176,38 @@ fn explained(
     let place = PlotPlace { wheel: place.wheel && size.y - below >= LEAST, ..place };
     ui.allocate_ui_with_layout(room, Layout::top_down(Align::Min), |ui| {
         ui.set_min_size(room);
-        match place.plot {
-            Plot::Eigenvalues => eigenvalues::ui(place, ui, facts, commands),
-            Plot::Modes => modes::ui(ui, facts, commands),
-            Plot::Growth => growth::ui(place, ui, facts),
-            Plot::Line => line::ui(place, view, ui, facts, commands),
-            Plot::Directions => directions::ui(place, ui, facts, commands),
-            Plot::Campbell => campbell::ui(place, &mut state.campbell_hz, ui, facts, commands),
-            Plot::Mesh => mesh::ui(place, ui, facts),
-            Plot::Sensitivities => sensitivities::ui(ui, facts, commands),
-            Plot::WhatIf => what_if::ui(place, &mut state.what_if, ui, facts, commands),
-        }
+        draw(place, view, state, ui, facts, commands);
     });
     if let Some(text) = text {
         ui.add(Label::new(text).wrap());
+    }
+}
+
+fn draw(
+    place: PlotPlace,
+    view: Option<&View>,
+    state: &mut UiState,
+    ui: &mut Ui,
+    facts: Facts<'_>,
+    commands: &mut Vec<Command>,
+) {
+    match place.plot {
+        Plot::Eigenvalues => eigenvalues::ui(place, ui, facts, commands),
+        Plot::Modes => modes::ui(ui, facts, commands),
+        Plot::Growth => growth::ui(place, ui, facts),
+        Plot::Line => line::ui(place, view, ui, facts, commands),
+        Plot::Directions => directions::ui(place, ui, facts, commands),
+        Plot::Campbell => campbell::ui(place, &mut state.campbell_hz, ui, facts, commands),
+        Plot::Mesh => mesh::ui(place, ui, facts),
+        Plot::Sensitivities => sensitivities::ui(ui, facts, commands),
+        Plot::WhatIf => what_if::ui(place, &mut state.what_if, ui, facts, commands),
+        Plot::Path => {
+            let asked = flight::speeds::Asked { view, now: flight::now(state), limits: &state.limits };
+            flight::speeds::ui(place, asked, ui, facts, commands);
+        }
+        Plot::Gain => flight::gain::ui(place, ui, facts, commands),
+        Plot::Deviation => flight::deviation::ui(place, flight::now(state), ui, facts, commands),
+        Plot::Tensions => flight::tensions::ui(place, flight::now(state), ui, facts, commands),
     }
 }
 
@@ -191,5 +223,9 @@ fn explanation(plot: Plot, facts: Facts<'_>) -> String {
         Plot::Mesh => mesh::MEANING.into(),
         Plot::Sensitivities => sensitivities::MEANING.into(),
         Plot::WhatIf => what_if::MEANING.into(),
+        Plot::Path => flight::speeds::meaning(facts),
+        Plot::Gain => flight::gain::meaning(facts),
+        Plot::Deviation => flight::deviation::meaning(facts),
+        Plot::Tensions => flight::tensions::meaning(facts),
     }
 }
