@@ -86,6 +86,7 @@ impl Seen {
                         assert_eq!(before, None, "{topic:?} {place} came twice");
                     }
                 }
+                StudyNews::Part { .. } => {}
                 StudyNews::Finished { topic, revision } => self.finished.push((topic, revision)),
                 StudyNews::Refused { reason, .. } | StudyNews::Broken(reason) => panic!("{reason}"),
             }

@@ -43,6 +43,13 @@ impl Tautline {
                 let text = view_link::embed(&self.link());
                 self.files.copy(context, Clip { what: "The embed code", text, more: ".".into() });
             }
+            Command::Flight(action) => self.present.flying.act(action),
+            Command::Step(steps) if self.flies() => {
+                self.state.playback.playing = false;
+                if let Some(end) = self.flight_end() {
+                    self.present.flying.step(end, steps);
+                }
+            }
             Command::Step(steps) => canvas::step(&mut self.state.playback, &self.present.answers, steps),
             Command::BackToFeasible => {
                 if let Some(position) = self.present.answers.last_feasible() {

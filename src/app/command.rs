@@ -2,6 +2,7 @@
 
 use crate::app::designs::Action;
 use crate::app::export::Content;
+use crate::app::flying;
 use crate::app::words::Word;
 use crate::compute::protocol::{ModeChoice, Topic};
 use crate::scenario::{Parameter, Scenario};
@@ -51,6 +52,8 @@ pub enum Command {
     WhatIf(Parameter),
     /// Stop what moves on the canvas, and go on by this number of steps.
     Step(f64),
+    /// Look at the flight in another way.
+    Flight(flying::Action),
     /// Move the platform to the last pose that had an equilibrium.
     BackToFeasible,
     /// Open what a frame shows in a page of its own.

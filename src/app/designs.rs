@@ -149,7 +149,8 @@ impl Design {
         let plots = if idle { plots } else { &[] };
         let mut requests = studies::wanted(&self.document.scenario, state, plots, critical, idle);
         // These show one design.
-        requests.retain(|request| !matches!(request.topic(), Topic::Map | Topic::Border | Topic::Reach));
+        requests
+            .retain(|request| !matches!(request.topic(), Topic::Map | Topic::Border | Topic::Reach | Topic::Flight));
         self.studies.want(requests)
     }
 }

@@ -54,6 +54,8 @@ pub enum Icon {
     Sound,
     /// To the left.
     ArrowLeft,
+    /// Up.
+    ArrowUp,
     /// A house: the pose that the robot was opened with.
     Home,
     /// Turned round.
@@ -139,6 +141,7 @@ fn lines(icon: Icon) -> &'static [&'static [[f32; 2]]] {
             &[[10.3, 5.8], [11.3, 8.0], [10.3, 10.2]],
             &[[12.3, 3.8], [13.8, 8.0], [12.3, 12.2]],
         ],
+        Icon::ArrowUp => &[&[[8.0, 13.0], [8.0, 3.0]], &[[4.0, 7.0], [8.0, 3.0], [12.0, 7.0]]],
         Icon::ArrowLeft => &[&[[13.0, 8.0], [3.0, 8.0]], &[[7.0, 4.0], [3.0, 8.0], [7.0, 12.0]]],
         Icon::Home => &[&[[1.8, 8.0], [8.0, 2.2], [14.2, 8.0]], &[[3.6, 6.6], [3.6, 13.8], [12.4, 13.8], [12.4, 6.6]]],
         Icon::Turn => &[

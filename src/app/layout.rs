@@ -188,7 +188,11 @@ impl Tautline {
             let button = Rect::from_min_size(rect.right_top() + Vec2::new(-100.0, 6.0), Vec2::new(92.0, 44.0));
             let inside = UiBuilder::new().max_rect(button).layout(Layout::right_to_left(Align::Center));
             ui.scope_builder(inside, |ui| {
-                transport::let_go(&mut state.playback, session.mode, ui, 44.0, commands);
+                if facts.document.scenario.path.is_some() {
+                    transport::fly(&mut state.playback, ui, 44.0);
+                } else {
+                    transport::let_go(&mut state.playback, session.mode, ui, 44.0, commands);
+                }
             });
         }
     }
@@ -403,7 +407,11 @@ impl Tautline {
         ui.scope_builder(UiBuilder::new().max_rect(lower), |ui| {
             controls::speed(ui, facts, commands);
             ui.horizontal(|ui| {
-                transport::let_go(&mut state.playback, session.mode, ui, 32.0, commands);
+                if facts.document.scenario.path.is_some() {
+                    transport::fly(&mut state.playback, ui, 32.0);
+                } else {
+                    transport::let_go(&mut state.playback, session.mode, ui, 32.0, commands);
+                }
                 let button = IconButton::new(Icon::Map, "Map").text("Map").height(32.0).selected(state.map.on).framed();
                 if button.show(ui).clicked() {
                     state.map.on = !state.map.on;
@@ -474,7 +482,11 @@ fn frame_row(
     ui.painter().hline(rect.x_range(), rect.min.y + 0.5, (1.0, tokens.line));
     let inside = UiBuilder::new().max_rect(rect.shrink2(Vec2::new(MARGIN, 0.0)));
     ui.scope_builder(inside.layout(Layout::left_to_right(Align::Center)), |ui| {
-        transport::let_go(playback, mode, ui, 32.0, commands);
+        if facts.document.scenario.path.is_some() {
+            transport::fly(playback, ui, 32.0);
+        } else {
+            transport::let_go(playback, mode, ui, 32.0, commands);
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let text = if rect.width() > 500.0 { "Open in Tautline" } else { "" };
             if IconButton::new(Icon::Open, "Open in Tautline").text(text).show(ui).clicked() {

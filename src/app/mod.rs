@@ -21,6 +21,7 @@ mod export;
 mod facts;
 mod fields;
 mod files;
+mod flying;
 mod gestures;
 mod history;
 mod icons;
@@ -68,11 +69,12 @@ use designs::Designs;
 use engine::Engine;
 use facts::Present;
 use files::Files;
+use flying::Flying;
 use history::History;
 use notices::{About, Notices};
 use persist::{Keeper, Keeping, Kept};
 use screen::Screen;
-use state::{Document, Session, UiState};
+use state::{Document, Movement, Session, UiState};
 use studies::{Joined, Owner, SharedPool, Studies};
 
 pub use picture::raster;
@@ -179,6 +181,7 @@ impl Tautline {
                 answers: Answers::default(),
                 studies: Studies::default(),
                 joined: Joined::default(),
+                flying: Flying::default(),
                 designs: if start.embedded { Designs::default() } else { persist::designs(&storages) },
             },
             history,
@@ -292,6 +295,10 @@ impl Tautline {
         let mut requests = studies::wanted(&self.present.document.scenario, &self.state, plots, critical, at_rest);
         let limits = self.session.windows.fastest.then_some(&self.state.limits);
         requests.extend(studies::on_path(&self.present.document.scenario, plots, limits, &self.present.studies));
+        let flight = self.present.flying.wanted(&self.present.document.scenario);
+        // A drag is not disturbed by one that is new; one at work goes on.
+        let flight = flight.filter(|flight| at_rest || self.present.studies.has(flight));
+        requests.extend(flight);
         let orders = self.present.studies.want(requests);
         let idle = !self.present.studies.is_working();
         // The pool has one study of each topic: the kept designs' go first, to make room for the present one's.
@@ -354,11 +361,28 @@ impl Tautline {
         if !self.state.playback.playing {
             return;
         }
+        let seconds = f64::from(context.input(|input| input.stable_dt)).min(0.1);
+        if self.flies() {
+            if let Some(end) = self.flight_end() {
+                self.state.playback.playing = self.present.flying.advance(end, seconds);
+                context.request_repaint();
+            }
+            return;
+        }
         if self.present.answers.shape().is_some() {
-            let seconds = f64::from(context.input(|input| input.stable_dt)).min(0.1);
             canvas::advance(&mut self.state.playback, &self.present.answers, seconds);
             context.request_repaint();
         }
+    }
+
+    /// Whether the flight is what moves.
+    fn flies(&self) -> bool {
+        self.state.playback.movement == Movement::Fly && self.present.document.scenario.path.is_some()
+    }
+
+    /// Until when the flight goes that is known, in s.
+    fn flight_end(&self) -> Option<f64> {
+        self.facts().flown().map(|flown| flown.flight.lost.unwrap_or(flown.flight.end))
     }
 
     fn reduce_motion(&mut self, context: &egui::Context) {

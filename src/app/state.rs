@@ -431,6 +431,8 @@ pub enum Movement {
     LetGo,
     /// One mode's shape, which swings for ever.
     Mode,
+    /// The flight along the document's path; without a path, as if let go.
+    Fly,
 }
 
 /// What moves on the canvas, and how.

@@ -1,5 +1,8 @@
 //! The bar under the robot: what moves on the canvas, how large and how fast.
 
+mod flight;
+mod play;
+
 use std::f64::consts::TAU;
 
 use eframe::egui::{
@@ -22,6 +25,9 @@ use crate::app::tone;
 use crate::compute::protocol::{ModeChoice, ModeShape, Which};
 use crate::robot::Linearisation;
 
+pub use flight::fly;
+use play::{choose, play};
+
 /// Draws the transport in `rect`.
 pub fn ui(
     playback: &mut Playback,
@@ -39,6 +45,10 @@ pub fn ui(
     let layout = UiBuilder::new().max_rect(inner).layout(Layout::left_to_right(Align::Center));
     ui.scope_builder(layout, |ui| {
         ui.set_clip_rect(rect.intersect(ui.clip_rect()));
+        if playback.movement == Movement::Fly && facts.document.scenario.path.is_some() {
+            flight::ui(playback, session.mode, ui, (rect.width(), height), facts, commands);
+            return;
+        }
         ui.add_enabled_ui(facts.answers.shape().is_some(), |ui| {
             play(playback, ui, height);
             if !playback.playing && rect.width() > 500.0 {
@@ -76,7 +86,7 @@ pub fn ui(
 
 /// The one button of a phone and of a frame: lets the robot go, or stops.
 pub fn let_go(playback: &mut Playback, mode: ModeChoice, ui: &mut Ui, height: f32, commands: &mut Vec<Command>) {
-    let goes = playback.playing && playback.movement == Movement::LetGo;
+    let goes = playback.playing && playback.movement != Movement::Mode;
     let icon = if goes { Icon::Pause } else { Icon::Play };
     let button = IconButton::new(icon, "Let go").text("Let go").height(height).framed().show(ui);
     if button.explained("What a small disturbance becomes at this speed").clicked() {
@@ -86,13 +96,6 @@ pub fn let_go(playback: &mut Playback, mode: ModeChoice, ui: &mut Ui, height: f3
             choose(playback, mode, Movement::LetGo, commands);
             playback.playing = true;
         }
-    }
-}
-
-fn play(playback: &mut Playback, ui: &mut Ui, height: f32) {
-    let (icon, name) = if playback.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
-    if IconButton::new(icon, name).height(height).primary().show(ui).explained("Space does the same").clicked() {
-        playback.playing = !playback.playing;
     }
 }
 
@@ -131,10 +134,16 @@ fn movements(
     ];
     ui.spacing_mut().item_spacing.x = 0.0;
     for (movement, name, meaning) in choices {
-        let chosen = playback.movement == movement;
+        // Without a path nothing flies: it is let go.
+        let chosen = playback.movement == movement || (playback.movement, movement) == (Movement::Fly, Movement::LetGo);
         if segment(ui, chosen, &name, height).explained(meaning).clicked() {
             choose(playback, mode, movement, commands);
         }
+    }
+    if document.scenario.path.is_some()
+        && segment(ui, false, "Fly", height).explained("Flies the path, with everything that swings").clicked()
+    {
+        choose(playback, mode, Movement::Fly, commands);
     }
     ui.spacing_mut().item_spacing.x = 8.0;
     ui.add_space(8.0);
@@ -143,19 +152,6 @@ fn movements(
 /// The critical speed that is known, in m/s.
 fn critical(answers: &Answers) -> Option<f64> {
     answers.last_critical()?.critical.as_ref().map(|critical| critical.speed)
-}
-
-/// Has this move from now on.
-fn choose(playback: &mut Playback, mode: ModeChoice, movement: Movement, commands: &mut Vec<Command>) {
-    (playback.movement, playback.since) = (movement, 0.0);
-    let which = match (movement, mode.which) {
-        (Movement::Mode, _) => Which::Critical,
-        (Movement::LetGo, Which::Critical) => Which::Present,
-        (Movement::LetGo, which) => which,
-    };
-    if which != mode.which {
-        commands.push(Command::ChooseMode(ModeChoice { which, ..mode }));
-    }
 }
 
 /// One of several choices side by side.

@@ -247,6 +247,15 @@ pub enum StudyNews {
         /// Places and what is known there; no place comes twice.
         answers: Vec<(usize, Answer)>,
     },
+    /// A study of one place has come so far with it.
+    Part {
+        /// Which study.
+        topic: Topic,
+        /// The document's state that it is of.
+        revision: Revision,
+        /// In percent.
+        percent: u16,
+    },
     /// All places are answered.
     Finished {
         /// Which study.
@@ -285,8 +294,21 @@ pub enum Outgoing {
     Reply(Reply),
     /// From one of the pool's workers.
     Batch(AnsweredBatch),
+    /// From one of the pool's workers, about the place that it is at.
+    Part(PartDone),
     /// The sign of life.
     Alive,
+}
+
+/// How much of the only place of a study is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PartDone {
+    /// Which study, as told before.
+    pub topic: Topic,
+    /// Names the study.
+    pub generation: u64,
+    /// In percent.
+    pub percent: u16,
 }
 
 /// What one of the pool's workers is told.

@@ -1,14 +1,15 @@
 //! A wanted study of a robot: whether it can be done, its places in their order, how hard each is, and the answer at each.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU16, Ordering};
 
 use nalgebra::Complex;
 
-use crate::flight::LimitOptions;
+use crate::flight::{FlightOptions, LimitOptions};
 use crate::robot::{Motion, Robot, Trajectory, Vec2};
 use crate::scenario::Scenario;
 use crate::stability::{ALLOWED_LIMIT, Steps, is_limit};
-use crate::study::{Answer, Directions, Mapped, Reach, Study, Topic, Varied, WhatIf};
+use crate::study::{Answer, Directions, Mapped, Reach, Study, Topic, Varied, WhatIf, flown_in_steps};
 
 use super::protocol::StudyJob;
 use super::variants::Variants;
@@ -25,6 +26,10 @@ const COARSE: usize = 4;
 const SPEEDS_OF_A_STRETCH: f64 = 8.0;
 /// How many critical speeds take as long as what a move does to vibrations, about.
 const SPEEDS_OF_A_MOVE: f64 = 20.0;
+/// How many critical speeds take as long as a flight, about.
+const SPEEDS_OF_A_FLIGHT: f64 = 20.0;
+/// The most samples of a flight.
+const MOST_SAMPLES: usize = 10_000;
 /// The most numbers that a study may vary.
 const MOST_VARIED: usize = 2;
 /// The most places of a study, and the most directions at one place. The page asks for far fewer, so a message with more is
@@ -37,6 +42,10 @@ const MOST_DIRECTIONS: usize = 360;
 pub struct RobotStudy {
     robot: Robot,
     scenario: Scenario,
+    /// The scenario's, where it has a path.
+    trajectory: Option<Trajectory>,
+    /// How much of it is flown, in percent.
+    percent: AtomicU16,
     variants: Variants,
     study: Study,
 }
@@ -50,13 +59,15 @@ impl RobotStudy {
         check(&job.study)?;
         let scenario = Scenario::from_json(&job.scenario).map_err(|faults| faults.to_string())?;
         let (robot, _) = scenario.to_robot().map_err(|faults| faults.to_string())?;
+        let trajectory = scenario.trajectory();
         if matches!(job.study.topic(), Topic::Path | Topic::Gains | Topic::Move | Topic::Allowed | Topic::Flight)
-            && scenario.path.is_none()
+            && trajectory.is_none()
         {
             return Err("the scenario has no path".into());
         }
         let variants = Variants::new(scenario.clone(), job.study.varied())?;
-        Ok(Self { robot, scenario, variants, study: job.study.clone() })
+        let percent = AtomicU16::new(0);
+        Ok(Self { robot, scenario, trajectory, percent, variants, study: job.study.clone() })
     }
 
     /// All places, each once, in the order in which a picture becomes finer.
@@ -94,7 +105,8 @@ impl RobotStudy {
         let searches = match &self.study {
             Study::Map { directions: Directions::Worst(count), .. } => *count as f64,
             Study::Reach(_) => SPEEDS_OF_A_STRETCH,
-            Study::Gains { .. } | Study::Move | Study::Allowed(_) | Study::Flight { .. } => SPEEDS_OF_A_MOVE,
+            Study::Gains { .. } | Study::Move | Study::Allowed(_) => SPEEDS_OF_A_MOVE,
+            Study::Flight { .. } => SPEEDS_OF_A_FLIGHT,
             _ => 1.0,
         };
         searches * elements_of_all * elements_of_all
@@ -104,6 +116,11 @@ impl RobotStudy {
     pub fn answer(self: &Arc<Self>, place: usize) -> Steps<Answer> {
         let places = Arc::clone(self);
         Steps::new(async move {
+            if let (Study::Flight { options }, Some(trajectory)) = (&places.study, &places.trajectory) {
+                return Answer::Flight(Box::new(
+                    flown_in_steps(&places.robot, trajectory, options, |part| places.flown(part)).await,
+                ));
+            }
             let variant = |values: &[f64]| places.variants.at(values);
             if let Some(answer) = places.study.varied_in_steps(&variant, place).await {
                 return answer;
@@ -123,6 +140,17 @@ impl RobotStudy {
             path.speed = speed;
         }
         scenario.trajectory()
+    }
+
+    fn flown(&self, part: f64) {
+        // A part of one.
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss)]
+        self.percent.store((100.0 * part) as u16, Ordering::Relaxed);
+    }
+
+    /// How much of its one place is done, in percent; `None` of studies of many places, which are told by those.
+    pub fn percent(&self) -> Option<u16> {
+        matches!(self.study, Study::Flight { .. }).then(|| self.percent.load(Ordering::Relaxed))
     }
 
     /// The answer at a place where every attempt has failed.
@@ -204,7 +232,8 @@ fn check(study: &Study) -> Result<(), String> {
                 }
             }
         }
-        Study::Move | Study::Flight { .. } => {}
+        Study::Move => {}
+        Study::Flight { options } => flight_options(options)?,
         Study::Reach(Reach { target, limit, .. }) => {
             search_limit(*limit)?;
             search_limit(*target)?;
@@ -217,6 +246,21 @@ fn check(study: &Study) -> Result<(), String> {
         if let Some(value) = values.iter().find(|value| !value.is_finite()) {
             return Err(format!("{path}: a value is {value}; allowed: finite numbers"));
         }
+    }
+    Ok(())
+}
+
+/// Whether a flight can be asked for this.
+fn flight_options(options: &FlightOptions) -> Result<(), String> {
+    let FlightOptions { kick, hold, accuracy, samples, .. } = *options;
+    if !(kick.iter().all(|part| part.is_finite()) && hold.is_finite() && hold >= 0.0) {
+        return Err("kick and hold must be finite, the hold at least 0".into());
+    }
+    if !(accuracy.is_finite() && accuracy > 0.0) {
+        return Err(format!("the accuracy is {accuracy}; allowed: finite numbers greater than 0"));
+    }
+    if samples > MOST_SAMPLES {
+        return Err(format!("a flight with {samples} samples; allowed: at most {MOST_SAMPLES}"));
     }
     Ok(())
 }

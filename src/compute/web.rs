@@ -33,7 +33,7 @@ impl Compute {
             let reply = match heard {
                 Heard::Message(Outgoing::Reply(reply)) => reply,
                 Heard::Broken(reason) => lost(reason),
-                Heard::Ready | Heard::Message(Outgoing::Batch(_) | Outgoing::Alive) => return,
+                Heard::Ready | Heard::Message(Outgoing::Batch(_) | Outgoing::Part(_) | Outgoing::Alive) => return,
             };
             inbox.borrow_mut().push_back(reply);
             wake();

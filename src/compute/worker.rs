@@ -41,6 +41,9 @@ pub fn run_worker() -> Result<(), JsValue> {
             if let Some(batch) = answered.flatten() {
                 send(&scope, &Outgoing::Batch(batch));
             }
+            if let Some(part) = pool_worker.borrow_mut().part() {
+                send(&scope, &Outgoing::Part(part));
+            }
             let _ = again.port2().post_message(&JsValue::NULL);
         })
     };

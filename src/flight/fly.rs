@@ -56,14 +56,38 @@ pub async fn fly_in_steps(
     trajectory: &Trajectory,
     options: &FlightOptions,
 ) -> Result<Flight, FlightError> {
-    fly_by(robot, trajectory, options, Steps::Adaptive).await
+    fly_watched(robot, trajectory, options, Steps::Adaptive, |_| {}).await
 }
 
+/// The same, which tells `watch` after each step which part of the time is flown, from 0 to 1.
+///
+/// # Errors
+/// Those of [`fly`].
+pub async fn fly_watched_in_steps(
+    robot: &Robot,
+    trajectory: &Trajectory,
+    options: &FlightOptions,
+    watch: impl Fn(f64),
+) -> Result<Flight, FlightError> {
+    fly_watched(robot, trajectory, options, Steps::Adaptive, watch).await
+}
+
+#[cfg(test)]
 pub(super) async fn fly_by(
     robot: &Robot,
     trajectory: &Trajectory,
     options: &FlightOptions,
     steps: Steps,
+) -> Result<Flight, FlightError> {
+    fly_watched(robot, trajectory, options, steps, |_| {}).await
+}
+
+async fn fly_watched(
+    robot: &Robot,
+    trajectory: &Trajectory,
+    options: &FlightOptions,
+    steps: Steps,
+    watch: impl Fn(f64),
 ) -> Result<Flight, FlightError> {
     let equations = Equations::new(robot);
     let mut flying = Flying::new(&equations, robot, trajectory, options)?;
@@ -71,6 +95,7 @@ pub(super) async fn fly_by(
         if !flying.advance(steps)? {
             break;
         }
+        watch(flying.time / flying.end);
         step().await;
     }
     Ok(flying.flight())

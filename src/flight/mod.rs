@@ -6,15 +6,15 @@
 mod equations;
 mod fly;
 mod growth;
-mod quasi_static;
 mod limits;
+mod quasi_static;
 mod record;
 mod sdirk;
 #[cfg(test)]
 mod tests;
 mod watch;
 
-pub use fly::{fly, fly_in_steps};
+pub use fly::{fly, fly_in_steps, fly_watched_in_steps};
 pub use growth::{gain, gain_in_steps, gain_of_few_modes_in_steps};
 pub use limits::{CableRow, FastestMove, INTERVALS, LimitOptions, LimitsError, MoveRow, Place, legs, limits};
 pub use record::{CableSample, Flight, FlightError, FlightOptions, Gain, Sample, Slack};

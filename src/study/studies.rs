@@ -3,7 +3,7 @@
 
 use nalgebra::Complex;
 
-use crate::flight::{self, Flight, FlightOptions};
+use crate::flight::FlightOptions;
 use crate::robot::{Motion, Robot, RobotSpec, Vec2};
 use crate::stability::steps::finish;
 use crate::study::campbell::{self, Track};
@@ -11,8 +11,8 @@ use crate::study::grid::{coarse_first, coarse_first_in_a_row};
 use crate::study::on_path::{self, MoveEffect, Moves, Station};
 use crate::study::verdict::verdict_in_steps;
 use crate::study::{
-    Allowed, Directions, Fastest, Grid, Line, LocalProblem, NoEigenvalues, Reach, Stretch, Strip, Variant, Varied,
-    Verdict, WhatIf, compass, evenly,
+    Allowed, Directions, Fastest, Flown, Grid, Line, LocalProblem, NoEigenvalues, Reach, Stretch, Strip, Variant,
+    Varied, Verdict, WhatIf, compass, evenly,
 };
 
 /// What a map shows.
@@ -116,7 +116,7 @@ pub enum Study {
     Move,
     /// The fastest move along the scenario's path that limits allow: only [`Study::moved_in_steps`] answers it.
     Allowed(Allowed),
-    /// The flight along the scenario's path: only [`Study::moved_in_steps`] answers it.
+    /// The flight along the scenario's path: one place, which only [`flown_in_steps`](crate::study::flown_in_steps) answers.
     Flight {
         /// What is asked of it.
         options: FlightOptions,
@@ -228,7 +228,7 @@ pub enum Answer {
     /// The fastest move, or why there is none.
     Fastest(Box<Result<Fastest, String>>),
     /// The flight, or why there is none.
-    Flight(Box<Result<Flight, String>>),
+    Flight(Box<Result<Flown, String>>),
 }
 
 impl Study {
@@ -361,11 +361,6 @@ impl Study {
             Self::Allowed(allowed) => {
                 let Some(trajectory) = moves(None) else { return Some(self.unknown(index)) };
                 return Some(Answer::Fastest(Box::new(allowed.fastest_in_steps(robot, &trajectory).await)));
-            }
-            Self::Flight { options } => {
-                let Some(trajectory) = moves(None) else { return Some(self.unknown(index)) };
-                let flight = flight::fly_in_steps(robot, &trajectory, options).await;
-                return Some(Answer::Flight(Box::new(flight.map_err(|reason| reason.to_string()))));
             }
             Self::Gains { speeds } => speeds.get(index).copied(),
             Self::Move => None,

@@ -3,6 +3,7 @@
 
 mod arrow;
 mod cables;
+mod flight;
 mod handles;
 mod labels;
 mod layout;
@@ -112,7 +113,11 @@ pub fn ui(
     let Facts { document, answers, studies, .. } = facts;
     let (rect, background) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     background.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Robot canvas"));
-    let scene = Scene::new(&document.scenario, answers, &state.playback);
+    let mut scene = Scene::new(&document.scenario, answers, &state.playback);
+    let flight = flight::Shown::new(&state.playback, facts);
+    if let Some(flight) = &flight {
+        scene.fly(&flight.instant);
+    }
     let layout = lay_out(runtime, ui, rect, space, session.camera, &scene);
     let view = &layout.view;
     let mut painter = ui.painter_at(rect);
@@ -121,7 +126,7 @@ pub fn ui(
     runtime.layer.update(ui, facts, state.map);
     let lines = cables::lines(&layout, &scene);
     let farthest = layout.mark(scene.farthest_mark).map_or(layout.tip, |mark| mark.at);
-    let arrow = vec![layout.platform, farthest];
+    let arrow = if flight.is_some() { Vec::new() } else { vec![layout.platform, farthest] };
     let taken = map::Taken { lines: lines.iter().cloned().chain([arrow]).collect(), areas: vec![space.corner] };
     runtime.layer.paint(&painter, ui, view, &taken);
     let mut pen = pen(ui, &painter, rect, space);
@@ -152,12 +157,21 @@ pub fn ui(
     };
     let strongest = range.map_or(0.0, |[_, strongest]| strongest);
     let look = Look { over_map: state.map.on, strongest, compact: space.compact && rect.width() < NARROW };
+    if let Some(flight) = &flight {
+        flight::under(&mut pen, view, flight, facts.flying.time);
+    }
     paint::scene(&mut pen, ui.visuals(), &layout, &scene, look);
-    velocity::ui(&mut pen, &layout, &scene, said(runtime, ui, &scene, look, facts));
-    trouble::ui(&mut pen, &layout, &scene);
+    if let Some(flight) = &flight {
+        let under = if space.legend { space.corner.min.y + flight::UNDER_LEGEND } else { rect.min.y + 8.0 };
+        flight::over(&mut pen, ui, view, rect, under, flight);
+    } else {
+        velocity::ui(&mut pen, &layout, &scene, said(runtime, ui, &scene, look, facts));
+        trouble::ui(&mut pen, &layout, &scene);
+    }
     paint::responsible(&mut pen, &layout, &scene, look);
     // The marker belongs to the diagram beside it, and to one pose.
     let polar = studies.shown(Topic::Directions).filter(|shown| shown.current && state.plot == Plot::Directions);
+    let polar = polar.filter(|_| flight.is_none());
     if let Some((direction, speed)) = polar.and_then(|shown| series::worst_direction(shown.known)) {
         velocity::worst(&mut pen, &layout, direction, &digits::like(speed, facts.share()));
     }
@@ -171,8 +185,10 @@ pub fn ui(
     if state.map.on {
         map::point(ui, &painter, &background, view, facts, commands);
     }
-    runtime.held = handles::ui(ui, &painter, &layout, &scene, document, commands);
-    if session.unlocked {
+    // Nothing is dragged in a flight.
+    runtime.held =
+        if flight.is_some() { Held::default() } else { handles::ui(ui, &painter, &layout, &scene, document, commands) };
+    if session.unlocked && flight.is_none() {
         handles::winches(ui, &painter, &layout, &scene, document, commands);
     }
     let wheel_zooms = !session.embedded;

@@ -101,7 +101,12 @@ impl Scene {
         let critical = first.filter(|_| trouble.is_none());
         let marked = trouble.map_or(critical.map(|first| first.cable), |trouble| trouble.cable);
         let report = answers.pose().map(|pose| &pose.report);
-        let swing = answers.shape().map(|mode| (mode, swing(mode, playback).map(|part| part * frame.size().x)));
+        // What stands before it flies does not swing.
+        let flies = playback.movement == Movement::Fly && scenario.path.is_some();
+        let swing = answers
+            .shape()
+            .filter(|_| !flies)
+            .map(|mode| (mode, swing(mode, playback).map(|part| part * frame.size().x)));
         let cables = scenario.cables.iter().enumerate().map(|(i, cable)| {
             let DrawnShape { nodes, axial_forces: forces } = shape(answers, i);
             let vibrating = swing.map(|(mode, swing)| displaced(&nodes, mode, i, swing)).unwrap_or_default();
@@ -164,7 +169,7 @@ fn shape(answers: &Answers, i: usize) -> DrawnShape {
 /// The number that `mode` is multiplied by at this moment, its real and its imaginary part, in parts of the robot's width.
 fn swing(mode: &ModeShape, playback: &Playback) -> [f64; 2] {
     match playback.movement {
-        Movement::LetGo => Release::new(mode.eigenvalue, playback).swing(playback.since),
+        Movement::LetGo | Movement::Fly => Release::new(mode.eigenvalue, playback).swing(playback.since),
         Movement::Mode => {
             let (sine, cosine) = playback.phase.sin_cos();
             [playback.amplitude * cosine, playback.amplitude * sine]
@@ -183,7 +188,9 @@ fn displaced(nodes: &[[f64; 2]], mode: &ModeShape, i: usize, [re, im]: [f64; 2])
 pub fn advance(playback: &mut Playback, answers: &Answers, seconds: f64) {
     let Some(mode) = answers.shape() else { return };
     match playback.movement {
-        Movement::LetGo => playback.since = Release::new(mode.eigenvalue, playback).after(playback.since, seconds),
+        Movement::LetGo | Movement::Fly => {
+            playback.since = Release::new(mode.eigenvalue, playback).after(playback.since, seconds)
+        }
         Movement::Mode => playback.phase = (playback.phase + phase_advance(mode, playback, seconds)) % TAU,
     }
 }
@@ -191,7 +198,7 @@ pub fn advance(playback: &mut Playback, answers: &Answers, seconds: f64) {
 /// Stops what moves on the canvas, and goes on by this number of steps. An oscillation has 24 steps.
 pub fn step(playback: &mut Playback, answers: &Answers, steps: f64) {
     match (playback.movement, answers.shape()) {
-        (Movement::LetGo, Some(mode)) => {
+        (Movement::LetGo | Movement::Fly, Some(mode)) => {
             playback.playing = false;
             playback.since = Release::new(mode.eigenvalue, playback).stepped(playback.since, steps);
         }

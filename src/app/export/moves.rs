@@ -61,7 +61,7 @@ fn of_cables(count: usize) -> impl Iterator<Item = String> {
 /// A flight, sample by sample, with the columns that the command line has.
 pub fn flight(known: &StudyResults) -> Option<Table> {
     let Some(Answer::Flight(flight)) = known.places.first()?.as_ref() else { return None };
-    let flight = flight.as_ref().as_ref().ok()?;
+    let flight = &flight.as_ref().as_ref().ok()?.flight;
     let mut table = Table::new(&["t", "s", "x", "y", "v", "a", "dx", "dy"]);
     table.header.extend(of_cables(flight.samples.first()?.cables.len()));
     for sample in &flight.samples {

@@ -16,6 +16,7 @@ use crate::app::digits;
 use crate::app::facts::Facts;
 use crate::app::icons::{Icon, IconButton};
 use crate::app::meaning::Explain as _;
+use crate::app::panels::moving;
 use crate::app::theme::{self, Tokens};
 use crate::app::words::{self, Word};
 use crate::compute::protocol::{FailedPose, SearchEnd};
@@ -108,11 +109,17 @@ fn undecided(facts: Facts<'_>) -> bool {
 
 /// The size of the card.
 pub fn size(facts: Facts<'_>) -> Vec2 {
+    if facts.document.scenario.path.is_some() {
+        return moving::CARD;
+    }
     CARD + facts.designs.shown().map(|_| Vec2::new(0.0, DESIGN)).fold(Vec2::ZERO, std::ops::Add::add)
 }
 
 /// Draws the card with its upper left corner at `corner`. Gives where it is.
 pub fn card(ui: &mut Ui, corner: Pos2, facts: Facts<'_>, commands: &mut Vec<Command>) -> Rect {
+    if let Some(path) = &facts.document.scenario.path {
+        return moving::card(ui, corner, path, facts, commands);
+    }
     let tokens = theme::tokens(ui.visuals());
     let rect = Rect::from_min_size(corner, size(facts));
     // The card keeps the pointer from what is under it.
@@ -132,6 +139,10 @@ pub fn card(ui: &mut Ui, corner: Pos2, facts: Facts<'_>, commands: &mut Vec<Comm
 /// The column of a presentation, in all the room there is.
 pub fn column(ui: &mut Ui, facts: Facts<'_>, commands: &mut Vec<Command>) {
     ui.spacing_mut().item_spacing = Vec2::new(4.0, 6.0);
+    if let Some(path) = &facts.document.scenario.path {
+        moving::column(ui, path, facts, commands);
+        return;
+    }
     ui.label(RichText::new("Critical speed here").color(theme::tokens(ui.visuals()).weak));
     body(ui, facts, Form::Column, commands);
 }
@@ -479,6 +490,9 @@ fn track(ui: &Ui, bar: Rect, marks: Marks, current: bool) {
 
 /// The answer in one line.
 pub fn line(ui: &mut Ui, facts: Facts<'_>) -> Response {
+    if let Some(path) = &facts.document.scenario.path {
+        return moving::line(ui, path, facts);
+    }
     let tokens = theme::tokens(ui.visuals());
     let sign = Sign::of(facts);
     let (mark, _) = ui.allocate_exact_size(Vec2::new(18.0, 18.0), Sense::hover());

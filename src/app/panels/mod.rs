@@ -3,6 +3,7 @@
 pub mod answer;
 mod cables;
 pub mod controls;
+mod moving;
 mod plausible;
 pub mod plots;
 mod ropes;

@@ -1,7 +1,9 @@
 //! What is known along a path, as points of a plot: the speed flown and the limits it meets.
 
+use crate::app::facts::Facts;
 use crate::app::series::{Abscissa, runs, sample_of_speed};
 use crate::app::studies::StudyResults;
+use crate::compute::protocol::Topic;
 use crate::mechanics::WaveLimit;
 use crate::robot::{Side, Trajectory};
 use crate::study::{Answer, Station, Study};
@@ -167,6 +169,16 @@ impl<'a> Stations<'a> {
         let limits = self.all.iter().filter_map(|station| Some((station.wave_limit?, *station)));
         limits.min_by(|a, b| a.0.speed.total_cmp(&b.0.speed))
     }
+}
+
+/// What local analysis finds at the station of the present path that is nearest to arc length `s` (m).
+pub fn station(facts: Facts<'_>, s: f64) -> Option<&Station> {
+    let shown = facts.studies.shown(Topic::Path).filter(|shown| shown.current)?;
+    let stations = shown.known.places.iter().filter_map(|answer| match answer {
+        Some(Answer::Station(Some(station))) => Some(&**station),
+        _ => None,
+    });
+    stations.min_by(|a, b| (a.s - s).abs().total_cmp(&(b.s - s).abs()))
 }
 
 #[cfg(test)]

@@ -95,6 +95,8 @@ pub struct Progress {
     pub done: usize,
     /// All places.
     pub total: usize,
+    /// How much of its only place is done, in percent; 0 where that is not told.
+    pub percent: u16,
     /// How it stands.
     pub stage: StudyStage,
     /// Which one it is.
@@ -106,6 +108,7 @@ struct Subject {
     stage: StudyStage,
     revision: Revision,
     done: usize,
+    percent: u16,
     newest: Option<StudyResults>,
     /// The last study that had a picture.
     earlier: Option<StudyResults>,
@@ -163,12 +166,18 @@ impl Studies {
         let revision = self.revision;
         // An answer depends on the request alone: what an earlier try has found stays.
         let known = subject.newest.get_or_insert_with(|| StudyResults::new(request, revision));
-        (subject.stage, subject.revision, subject.done) = (StudyStage::Working, revision, 0);
+        (subject.stage, subject.revision, subject.done, subject.percent) = (StudyStage::Working, revision, 0, 0);
         Some(Order::Want(StudyJob {
             revision,
             scenario: known.request.scenario.to_json(),
             study: known.request.study.clone(),
         }))
+    }
+
+    /// Whether this very study is at work, or ended while it was wanted.
+    pub fn has(&self, request: &StudyRequest) -> bool {
+        let subject = &self.subjects[place(request.topic())];
+        subject.stage != StudyStage::Idle && subject.newest.as_ref().is_some_and(|known| known.request == *request)
     }
 
     /// Stops a topic's study; what is known of it stays on show.
@@ -201,6 +210,11 @@ impl Studies {
                     }
                 }
                 known.version = (revision, subject.done);
+            }
+            StudyNews::Part { topic, revision, percent } => {
+                if let Some(subject) = self.at_work(topic, revision) {
+                    subject.percent = percent;
+                }
             }
             StudyNews::Finished { topic, revision } => {
                 let Some(subject) = self.at_work(topic, revision) else { return };
@@ -244,9 +258,9 @@ impl Studies {
 
     /// How far a topic's study has come.
     pub fn progress(&self, topic: Topic) -> Progress {
-        let Subject { stage, revision, done, newest, .. } = &self.subjects[place(topic)];
+        let Subject { stage, revision, done, percent, newest, .. } = &self.subjects[place(topic)];
         let total = newest.as_ref().map_or(0, |known| known.places.len());
-        Progress { done: *done, total, stage: *stage, revision: *revision }
+        Progress { done: *done, total, percent: *percent, stage: *stage, revision: *revision }
     }
 
     /// Whether anything is being computed.

@@ -4,21 +4,19 @@ use crate::app::limits::{Below, LimitsAsked};
 use crate::app::state::Plot;
 use crate::app::studies::{Studies, StudyRequest};
 use crate::compute::protocol::Topic;
-use crate::flight::{FlightOptions, LimitOptions};
+use crate::flight::LimitOptions;
 use crate::scenario::Scenario;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::study::{Allowed, Answer, Study};
 
 /// Stations of a path.
 const STATIONS: usize = 161;
-/// Samples of a flight.
-const SAMPLES: usize = 301;
 /// Peak speeds of the gains.
 const SPEEDS: u8 = 16;
 /// How far beyond the wave limit the gains are looked at.
 const BEYOND: f64 = 1.25;
 
-/// The studies of a path that are wanted with these plots on show, and with the fastest move where `limits` are asked for it.
+/// The studies of a path, its flight apart, that are wanted with these plots on show, and with the fastest move where `limits` are asked for it.
 /// The wave limit of a move decides how far its gains are looked at, and frozen critical speeds are limits: `studies` may
 /// know them.
 pub fn on_path(
@@ -33,10 +31,6 @@ pub fn on_path(
         StudyRequest::new(scenario, Study::Path { count: STATIONS, limit: DEFAULT_MAX_SPEED }),
         StudyRequest::new(scenario, Study::Move),
     ];
-    if plots.iter().any(|plot| matches!(plot, Plot::Path | Plot::Deviation | Plot::Tensions)) {
-        let options = FlightOptions { hold: path.hold, samples: SAMPLES, ..FlightOptions::default() };
-        requests.push(StudyRequest::new(scenario, Study::Flight { options }));
-    }
     if plots.contains(&Plot::Gain)
         && let Some(ratio) = wave_ratio(studies)
     {

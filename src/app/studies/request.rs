@@ -49,6 +49,10 @@ impl StudyRequest {
         let position = if path.is_some() { scenario.motion.position } else { ANY_MOTION.position };
         let motion = Motion { position, ..ANY_MOTION };
         let mut scenario = Scenario { name: None, motion, path, ..scenario.clone() };
+        // Flights are those of the tangent stiffness, whatever the robot's.
+        if matches!(study, Study::Flight { .. }) {
+            scenario.linearisation = Linearisation::Tangent;
+        }
         if matches!(study, Study::Mesh { .. }) {
             scenario.elements_per_cable = ANY_ELEMENTS;
         }

@@ -49,9 +49,10 @@ impl Owners {
     /// Whom news is for; that there are no workers is for everybody.
     fn of(&self, news: &StudyNews) -> Vec<Owner> {
         match news {
-            StudyNews::Places { topic, .. } | StudyNews::Finished { topic, .. } | StudyNews::Refused { topic, .. } => {
-                self.0.get(topic).copied().into_iter().collect()
-            }
+            StudyNews::Part { topic, .. }
+            | StudyNews::Places { topic, .. }
+            | StudyNews::Finished { topic, .. }
+            | StudyNews::Refused { topic, .. } => self.0.get(topic).copied().into_iter().collect(),
             StudyNews::Broken(_) => std::iter::once(Owner::Present).chain((0..KEPT).map(Owner::Kept)).collect(),
         }
     }

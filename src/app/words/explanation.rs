@@ -167,6 +167,7 @@ mod tests {
     use crate::app::answers::Answers;
     use crate::app::designs::Designs;
     use crate::app::facts::Present;
+    use crate::app::flying::Flying;
     use crate::app::settings::Settings;
     use crate::app::state::Document;
     use crate::app::studies::{Joined, Studies};
@@ -181,7 +182,8 @@ mod tests {
     fn told(scenario: &Scenario, answers: Answers) -> String {
         let document = Document::opened(scenario.clone());
         let (studies, joined) = (Studies::default(), Joined::default());
-        let present = Present { document, answers, studies, joined, designs: Designs::default() };
+        let present =
+            Present { document, answers, studies, joined, designs: Designs::default(), flying: Flying::default() };
         paragraph(present.facts(Settings::default(), Session::default().mode))
     }
 

@@ -3,7 +3,7 @@
 use web_time::Instant;
 
 use super::scheduler::{Action, Scheduler, WorkerId};
-use crate::compute::protocol::{AnsweredBatch, Task};
+use crate::compute::protocol::{AnsweredBatch, PartDone, Task};
 
 /// What is heard of a worker.
 pub enum Event {
@@ -11,6 +11,8 @@ pub enum Event {
     Ready,
     /// It has answered a batch.
     Answered(AnsweredBatch),
+    /// It has come so far with a place.
+    Part(PartDone),
     /// It is no more, with the reason.
     Lost(String),
 }
@@ -52,6 +54,7 @@ impl<C: Crew> Core<C> {
         match event {
             Event::Ready => self.scheduler.ready(worker),
             Event::Answered(batch) => self.scheduler.answered(worker, batch),
+            Event::Part(part) => self.scheduler.part(worker, part),
             Event::Lost(reason) => self.scheduler.lost(worker, reason),
         }
         self.go_on()

@@ -130,6 +130,9 @@ fn serve(worker: WorkerId, tasks: &Receiver<Task>, report: &Messenger, answer: A
             if let Some(batch) = answered {
                 report.tell(worker, Event::Answered(batch));
             }
+            if let Some(part) = pool_worker.part() {
+                report.tell(worker, Event::Part(part));
+            }
         }
     }
 }

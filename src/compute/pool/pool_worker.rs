@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use web_time::Instant;
 
-use crate::compute::protocol::{AnsweredBatch, Batch, Task, Topic};
+use crate::compute::protocol::{AnsweredBatch, Batch, PartDone, Task, Topic};
 use crate::compute::robot_study::RobotStudy;
 use crate::stability::Steps;
 use crate::study::Answer;
@@ -26,6 +26,8 @@ pub struct PoolWorker {
     /// The newest study of each topic, with its generation. Its scenario is read once.
     studies: BTreeMap<Topic, (u64, Arc<RobotStudy>)>,
     batches: VecDeque<RunningBatch>,
+    /// What has been told last of a place under way.
+    told: Option<PartDone>,
 }
 
 /// A batch with its answers so far.
@@ -45,7 +47,7 @@ impl Default for PoolWorker {
 impl PoolWorker {
     /// One that answers each place by `answer`.
     pub(super) fn by(answer: Arc<AnswerAt>) -> Self {
-        Self { answer, studies: BTreeMap::new(), batches: VecDeque::new() }
+        Self { answer, studies: BTreeMap::new(), batches: VecDeque::new(), told: None }
     }
 
     /// Takes a task.
@@ -82,6 +84,18 @@ impl PoolWorker {
         }
         let RunningBatch { answers, spent, .. } = self.batches.pop_front()?;
         Some(Some(AnsweredBatch { answers, seconds: spent.as_secs_f64() }))
+    }
+}
+
+impl PoolWorker {
+    /// How much is done of the place under way, where that is to be told and has changed since it was.
+    pub fn part(&mut self) -> Option<PartDone> {
+        let Batch { topic, generation, .. } = self.batches.front()?.batch;
+        let (_, study) = self.studies.get(&topic).filter(|(known, _)| *known == generation)?;
+        let part = PartDone { topic, generation, percent: study.percent()? };
+        let is_new = self.told != Some(part);
+        self.told = Some(part);
+        is_new.then_some(part)
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 use std::time::Duration;
 
 use super::study::{RunningStudy, SentBatch};
-use crate::compute::protocol::{AnsweredBatch, Batch, StudyJob, StudyNews, Task, Topic};
+use crate::compute::protocol::{AnsweredBatch, Batch, PartDone, StudyJob, StudyNews, Task, Topic};
 use crate::study::Answer;
 
 /// More workers than this gain little and cost memory.
@@ -133,6 +133,7 @@ impl Scheduler {
         }
         self.news.retain(|news| match news {
             StudyNews::Places { topic: of, .. }
+            | StudyNews::Part { topic: of, .. }
             | StudyNews::Finished { topic: of, .. }
             | StudyNews::Refused { topic: of, .. } => *of != topic,
             StudyNews::Broken(_) => true,
@@ -196,6 +197,17 @@ impl Scheduler {
         }
         if let Some(worker) = self.workers.get_mut(&id) {
             worker.batches.pop_front();
+        }
+    }
+
+    /// A worker has come so far with the place that it is at. That is a sign of life as well.
+    pub fn part(&mut self, id: WorkerId, PartDone { topic, generation, percent }: PartDone) {
+        let Some(worker) = self.workers.get_mut(&id) else { return };
+        worker.since = self.now;
+        if let Some(study) = self.studies.get(&topic).filter(|study| study.generation == generation) {
+            // Only the newest is worth telling.
+            self.news.retain(|news| !matches!(news, StudyNews::Part { topic: of, .. } if *of == topic));
+            self.news.push(StudyNews::Part { topic, revision: study.job.revision, percent });
         }
     }
 

@@ -130,6 +130,7 @@ fn answered(news: Vec<StudyNews>) -> (Vec<(usize, Answer)>, bool) {
     for news in news {
         match news {
             StudyNews::Places { answers, .. } => all.extend(answers),
+            StudyNews::Part { .. } => {}
             StudyNews::Finished { .. } => finished = true,
             other => panic!("{other:?}"),
         }

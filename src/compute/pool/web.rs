@@ -77,6 +77,7 @@ impl Crew for WebWorkers {
             let event = match heard {
                 Heard::Ready => Event::Ready,
                 Heard::Message(Outgoing::Batch(batch)) => Event::Answered(batch),
+                Heard::Message(Outgoing::Part(part)) => Event::Part(part),
                 Heard::Message(Outgoing::Reply(_) | Outgoing::Alive) => return,
                 Heard::Broken(reason) => Event::Lost(reason),
             };

@@ -103,7 +103,7 @@ pub fn ui(
 /// Draws the study along the path, or along the line where there is no path, as a mere strip under the robot.
 pub fn strip(state: &UiState, ui: &mut Ui, rect: Rect, view: &View, facts: Facts<'_>, commands: &mut Vec<Command>) {
     if facts.document.scenario.path.is_some() {
-        let asked = flight::speeds::Asked { view: Some(view), now: flight::now(state), limits: &state.limits };
+        let asked = flight::speeds::Asked { view: Some(view), now: flight::now(state, facts), limits: &state.limits };
         flight::speeds::strip(ui, rect, asked, facts);
     } else {
         line::strip(ui, rect, view, facts, commands);
@@ -202,12 +202,12 @@ fn draw(
         Plot::Sensitivities => sensitivities::ui(ui, facts, commands),
         Plot::WhatIf => what_if::ui(place, &mut state.what_if, ui, facts, commands),
         Plot::Path => {
-            let asked = flight::speeds::Asked { view, now: flight::now(state), limits: &state.limits };
+            let asked = flight::speeds::Asked { view, now: flight::now(state, facts), limits: &state.limits };
             flight::speeds::ui(place, asked, ui, facts, commands);
         }
         Plot::Gain => flight::gain::ui(place, ui, facts, commands),
-        Plot::Deviation => flight::deviation::ui(place, flight::now(state), ui, facts, commands),
-        Plot::Tensions => flight::tensions::ui(place, flight::now(state), ui, facts, commands),
+        Plot::Deviation => flight::deviation::ui(place, flight::now(state, facts), ui, facts, commands),
+        Plot::Tensions => flight::tensions::ui(place, flight::now(state, facts), ui, facts, commands),
     }
 }
 

@@ -12,12 +12,13 @@ use super::axis::signed;
 use crate::app::command::Command;
 use crate::app::digits;
 use crate::app::facts::Facts;
-use crate::app::state::{Plot, UiState};
+use crate::app::state::{Movement, Plot, UiState};
 use crate::robot::Trajectory;
 
 /// The time in the flight at which the robot is on show, in s, while a flight is on show.
-pub fn now(_state: &UiState) -> Option<f64> {
-    None
+pub fn now(state: &UiState, facts: Facts<'_>) -> Option<f64> {
+    let flown = facts.flown().filter(|_| state.playback.movement == Movement::Fly)?;
+    Some(facts.flying.time.min(flown.flight.lost.unwrap_or(flown.flight.end)))
 }
 
 /// The path of the document with its timing; where there is none, says so and offers one.

@@ -27,7 +27,7 @@ pub fn flown(facts: Facts<'_>) -> Result<Flown<'_>, String> {
     let shown = facts.studies.shown(Topic::Flight).filter(|shown| shown.known.answered() > 0);
     match shown.and_then(|shown| Some((shown.known.places.first()?.as_ref()?, shown.current))) {
         Some((Answer::Flight(flight), current)) => match &**flight {
-            Ok(flight) => Ok(Flown { flight, current }),
+            Ok(flown) => Ok(Flown { flight: &flown.flight, current }),
             Err(reason) => Err(signed(&format!("There is no flight: {reason}."))),
         },
         _ => Err("The flight is being computed.".into()),
