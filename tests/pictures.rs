@@ -13,7 +13,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use tautline::app::Tautline;
 use tautline::compute::protocol::Topic;
-use tautline::scenario::Scenario;
+use tautline::scenario::{self, Corners, ProfileKind, Scenario};
 
 use interface::{app_in_pictures, paper, settle, wait};
 use picture::{Textures, picture, read, write};
@@ -177,5 +177,40 @@ fn all_pictures_that_are_wanted() {
         }
         let present = shot(&paper(), Vec2::new(1280.0, 720.0), theme, |app| press(app, Key::F));
         keep(&format!("present-{word}"), &present);
+    }
+}
+
+/// Pictures of a path and its controls; nothing where none are wanted.
+#[test]
+fn pictures_of_a_path_that_are_wanted() {
+    if folder().is_none() {
+        return;
+    }
+    let straight = scenario::Path::new(vec![[6.0, 0.0]], 7.0);
+    let mut smooth = scenario::Path::new(vec![[-2.0, 2.5], [3.0, -1.5], [6.0, 1.0]], 4.0);
+    (smooth.corners, smooth.profile) = (Corners::Smooth, ProfileKind::Scurve);
+    for (word, theme) in THEMES {
+        for (shape, path) in [("straight", &straight), ("smooth", &smooth)] {
+            for (name, size) in [("phone", PHONE), ("desktop", DESKTOP)] {
+                let mut scenario = Scenario { path: Some(path.clone()), ..paper() };
+                scenario.motion.position = [-6.0, 0.0];
+                let open = |app: &mut App| {
+                    // The controls of the path alone.
+                    for group in ["Motion", "Path"] {
+                        if app.query_by_role_and_label(Role::Button, group).is_some() {
+                            app.get_by_role_and_label(Role::Button, group).scroll_to_me();
+                            app.run_steps(20);
+                            app.get_by_role_and_label(Role::Button, group).click();
+                            app.run_steps(6);
+                        }
+                    }
+                    if size == PHONE {
+                        app.get_by_role_and_label(Role::Slider, "Peak speed v").scroll_to_me();
+                        app.run_steps(20);
+                    }
+                };
+                keep(&format!("path-{shape}-{name}-{word}"), &shot(&scenario, size, theme, open));
+            }
+        }
     }
 }

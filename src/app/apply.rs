@@ -15,7 +15,7 @@ use super::theme::{self, Tokens};
 use super::{Command, Tautline, canvas, fields, number, view_link};
 use crate::compute::protocol::Request;
 use crate::scenario::report::sentence;
-use crate::scenario::{Parameter, Path, link, table};
+use crate::scenario::{Parameter, Path, Scenario, link, table};
 use crate::study::workspace;
 
 /// Said where there is nothing to save.
@@ -178,6 +178,7 @@ impl Tautline {
             Parameter::Speed | Parameter::Direction | Parameter::DirectionComponent(_) | Parameter::Position(_) => {
                 SheetTab::Move
             }
+            _ if parameter.path().starts_with("path.") => SheetTab::Move,
             _ => SheetTab::Robot,
         };
         self.state.panels.left = true;
@@ -265,9 +266,14 @@ impl Tautline {
             // A new path is what there is to look at.
             self.state.dock = UiState::presented(has_path);
         }
+        // Where the platform flies to changes no answer about where it is.
+        let path = document.scenario.path.clone();
+        let elsewhere = document.scenario != Scenario { path, ..self.present.document.scenario.clone() };
         self.present.document = document;
         if changed {
             number::forget_message(&self.context);
+        }
+        if elsewhere {
             self.engine.losses = 0;
             self.analyze();
         }

@@ -3,7 +3,7 @@
 use crate::app::number::{self, Unit};
 use crate::app::settings::{Settings, StressUnit};
 use crate::robot::{Allowed, BoundingBox, ELEMENTS, Fault, Vec2};
-use crate::scenario::{Parameter, Scenario};
+use crate::scenario::{MOST_PATH_POINTS, Parameter, Scenario};
 
 /// A number of the scenario with its control.
 #[derive(Clone, Copy, Debug)]
@@ -223,8 +223,8 @@ impl Field {
                 "How fast the acceleration changes in an S-curve.",
             )),
             Parameter::PathHold => named(
-                "Time after the stop",
-                "hold",
+                "Hold",
+                "Hold",
                 "s",
                 [0.0, 10.0],
                 "How long the flight goes on after the move, to see what is left of the vibration.",
@@ -280,7 +280,7 @@ fn in_words(fault: &Fault, scenario: &Scenario, settings: Settings) -> String {
             None => fault.to_string(),
         };
     }
-    let Some(field) = of(&fault.path) else { return fault.to_string() };
+    let Some(field) = of(&fault.path) else { return of_path(&fault.path).unwrap_or_else(|| fault.to_string()) };
     let (title, unit) = (field.title(), field.unit());
     let zero = unit.with_name("0");
     let found = fault.value.parse().map(|value| unit.with_name(&number::brief(unit.shown(value))));
@@ -302,10 +302,23 @@ fn in_words(fault: &Fault, scenario: &Scenario, settings: Settings) -> String {
     }
 }
 
+/// What is wrong with the shape of the path, which is no matter of one number.
+fn of_path(path: &str) -> Option<String> {
+    if path == "path.points" {
+        return Some(format!("A path leads to 1 to {MOST_PATH_POINTS} points"));
+    }
+    if path == "path.corners" {
+        return Some("These points have no smooth path: at one of them it would have to turn back".into());
+    }
+    let point: usize = path.strip_prefix("path.points[")?.strip_suffix(']')?.parse().ok()?;
+    let before = if point == 0 { "its start".into() } else { format!("point {point}") };
+    Some(format!("Point {} of the path must not be where {before} is", point + 1))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::{Path, presets};
+    use crate::scenario::{Corners, Path, presets};
 
     fn field(parameter: Parameter) -> Field {
         Field::of(parameter, BoundingBox { low: Vec2::zeros(), high: Vec2::zeros() })
@@ -355,6 +368,14 @@ mod tests {
             refused(Parameter::Speed, -1.0, settings),
             "v must be 0 m/s or more, not -1 m/s: turn the direction round to go back"
         );
+        let mut path = scenario.clone();
+        path.path = Some(Path::new(vec![path.motion.position], 1.0));
+        let of = |path: &Scenario| check(path, settings).expect_err("refused");
+        assert_eq!(of(&path), "Point 1 of the path must not be where its start is");
+        path.path = Some(Path::new(Vec::new(), 1.0));
+        assert_eq!(of(&path), "A path leads to 1 to 100 points");
+        path.path = Some(Path { corners: Corners::Smooth, ..Path::new(vec![[4.0, 0.0], [1.0, 0.0]], 1.0) });
+        assert!(of(&path).starts_with("These points have no smooth path"));
         let own = Parameter::OwnYoungsModulus(2);
         let mut with_own = scenario.clone();
         own.give(&mut with_own, 2e11);

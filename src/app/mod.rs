@@ -37,6 +37,7 @@ mod number;
 #[cfg(target_arch = "wasm32")]
 mod page;
 mod panels;
+mod paths;
 mod persist;
 mod picture;
 mod regions;

@@ -27,7 +27,8 @@ pub fn all(context: &Context) -> Vec<(String, &'static str)> {
     ];
     let others = [
         ("Tab, Shift+Tab", "From control to control, also the platform, the arrow and the winches"),
-        ("Arrow keys", "Platform or winch: move; arrow: ← → turn, ↑ ↓ speed. With Shift finely"),
+        ("Arrow keys", "Platform, winch or point of the path: move; arrow: ← → turn, ↑ ↓ speed. With Shift finely"),
+        ("Delete", "Remove the point of the path that has the focus"),
         ("+ and −, 0", "Zoom in and out, and show the whole robot"),
         ("Space", "Play or pause the mode shape"),
         (". and ,", "One step of the mode shape forward or back"),

@@ -31,16 +31,16 @@ impl Document {
     }
 
     /// The same, where a robot that has been changed does not go by the name of the one that was opened, and one that is
-    /// again as it was opened does. A name that somebody has given it stays. Where the robot stands and how it moves is no
-    /// change of the robot.
+    /// again as it was opened does. A name that somebody has given it stays. Where the robot stands, how it moves and
+    /// where it flies is no change of the robot.
     pub fn called_rightly(mut self) -> Self {
         let Some(opened) = self.original.name.as_deref().filter(|name| !name.trim().is_empty()) else { return self };
         let changed = if opened.ends_with(CHANGED) { opened.to_owned() } else { format!("{opened}{CHANGED}") };
         let Some(name) = self.scenario.name.as_deref().filter(|name| *name == opened || *name == changed) else {
             return self;
         };
-        let motion = self.scenario.motion;
-        let as_opened = Scenario { name: self.scenario.name.clone(), motion, ..self.original.clone() } == self.scenario;
+        let Scenario { name: named, motion, path, .. } = self.scenario.clone();
+        let as_opened = Scenario { name: named, motion, path, ..self.original.clone() } == self.scenario;
         let right = if as_opened { opened } else { changed.as_str() };
         if name != right {
             self.scenario.name = Some(right.to_owned());
@@ -253,6 +253,8 @@ impl Default for Panels {
 pub struct Sections {
     /// Speed, direction, position.
     pub motion: bool,
+    /// Where the platform flies from its position.
+    pub path: bool,
     /// The table of cables.
     pub cables: bool,
     /// The cables' material.
@@ -271,6 +273,7 @@ impl Default for Sections {
     fn default() -> Self {
         Self {
             motion: true,
+            path: false,
             cables: true,
             rope: false,
             platform: false,
@@ -496,7 +499,7 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::presets;
+    use crate::scenario::{Path, presets};
 
     #[test]
     fn a_changed_robot_does_not_go_by_the_name_of_the_one_that_was_opened() {
@@ -507,6 +510,7 @@ mod tests {
         let mut moved = opened();
         moved.scenario.motion.position = [1.0, 0.5];
         moved.scenario.motion.speed = 1.0;
+        moved.scenario.path = Some(Path::new(vec![[6.0, 0.0]], 5.0));
         assert_eq!(name(moved), "Paper robot");
         let mut changed = opened();
         changed.scenario.platform.mass = 3.0;

@@ -132,7 +132,7 @@ pub fn winches(
 }
 
 /// A place in m, in words.
-fn place(place: [f64; 2]) -> String {
+pub(super) fn place(place: [f64; 2]) -> String {
     // Without a sign where it rounds to 0.
     let [x, y] = place.map(|coordinate| (100.0 * coordinate).round() / 100.0 + 0.0);
     format!("({x:.2}, {y:.2}) m")
@@ -146,22 +146,42 @@ fn velocity(metres_per_second: f64, [x, y]: [f64; 2]) -> String {
 }
 
 /// A thing to grab at `centre`, with a ring when it has the keyboard's focus. `value` says where it is, in words.
-fn handle(ui: &Ui, painter: &Painter, name: &str, value: String, centre: Pos2, cursor: CursorIcon) -> Response {
-    let rect = Rect::from_center_size(centre, Vec2::splat(GRAB));
-    let response = ui.interact(rect, ui.scope_id().with(name), Sense::click_and_drag()).on_hover_cursor(cursor);
+pub(super) fn handle(
+    ui: &Ui,
+    painter: &Painter,
+    name: &str,
+    value: String,
+    centre: Pos2,
+    cursor: CursorIcon,
+) -> Response {
+    handle_of_size(ui, painter, [name, name], value, (centre, GRAB), cursor)
+}
+
+/// The same of another size than usual. One that is called otherwise than before, but has the same first name, goes on being
+/// dragged.
+pub(super) fn handle_of_size(
+    ui: &Ui,
+    painter: &Painter,
+    [id, name]: [&str; 2],
+    value: String,
+    (centre, size): (Pos2, f32),
+    cursor: CursorIcon,
+) -> Response {
+    let rect = Rect::from_center_size(centre, Vec2::splat(size));
+    let response = ui.interact(rect, ui.scope_id().with(id), Sense::click_and_drag()).on_hover_cursor(cursor);
     let info = WidgetInfo { current_text_value: Some(value), ..WidgetInfo::labeled(Role::Button, true, name) };
     response.widget_info(|| info.clone());
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
     if response.has_focus() || response.hovered() {
-        painter.circle_stroke(centre, 0.5 * GRAB, Stroke::new(1.5, theme::accent(ui.visuals())));
+        painter.circle_stroke(centre, 0.5 * size, Stroke::new(1.5, theme::accent(ui.visuals())));
     }
     response
 }
 
 /// Where a dragged handle's centre is to go: it keeps the distance to the pointer that it had when it was grabbed.
-fn drag(ui: &Ui, response: &Response, centre: Pos2) -> Option<Pos2> {
+pub(super) fn drag(ui: &Ui, response: &Response, centre: Pos2) -> Option<Pos2> {
     let offset = response.id.with("offset");
     let pointer = response.interact_pointer_pos()?;
     if response.drag_started() {
@@ -176,7 +196,7 @@ fn drag(ui: &Ui, response: &Response, centre: Pos2) -> Option<Pos2> {
 }
 
 /// What a handle moves, as it was when the drag began.
-fn at_first<T: Copy + Send + Sync + 'static>(ui: &Ui, response: &Response, now: T) -> T {
+pub(super) fn at_first<T: Copy + Send + Sync + 'static>(ui: &Ui, response: &Response, now: T) -> T {
     let id = response.id.with("first");
     if response.drag_started() {
         ui.data_mut(|data| data.insert_temp(id, now));
@@ -185,7 +205,7 @@ fn at_first<T: Copy + Send + Sync + 'static>(ui: &Ui, response: &Response, now: 
 }
 
 /// Where a hand moves a point of the world to; a coordinate that it does not move stays as it is.
-fn moved(first: [f64; 2], to: [f64; 2], view: &View) -> [f64; 2] {
+pub(super) fn moved(first: [f64; 2], to: [f64; 2], view: &View) -> [f64; 2] {
     [0, 1].map(|i| meant(first[i], to[i], 1.0 / view.scale))
 }
 
@@ -195,7 +215,7 @@ fn meant(first: f64, to: f64, point: f64) -> f64 {
 }
 
 /// Arrow keys pressed while `response` has the focus: right minus left, up minus down, and 0.1 with Shift.
-fn keys(ui: &Ui, response: &Response) -> Option<([f64; 2], f64)> {
+pub(super) fn keys(ui: &Ui, response: &Response) -> Option<([f64; 2], f64)> {
     if !response.has_focus() {
         return None;
     }

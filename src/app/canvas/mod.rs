@@ -11,6 +11,7 @@ mod legend;
 pub mod map;
 mod model;
 mod paint;
+mod path;
 mod range;
 mod release;
 mod trouble;
@@ -157,6 +158,11 @@ pub fn ui(
     };
     let strongest = range.map_or(0.0, |[_, strongest]| strongest);
     let look = Look { over_map: state.map.on, strongest, compact: space.compact && rect.width() < NARROW };
+    paint::grid(&pen, view, &scene);
+    let path = path::PathOnCanvas::new(&document.scenario, view);
+    if let Some(path) = &path {
+        path.paint(&mut pen, look.compact);
+    }
     if let Some(flight) = &flight {
         flight::under(&mut pen, view, flight, facts.flying.time);
     }
@@ -185,14 +191,23 @@ pub fn ui(
     if state.map.on {
         map::point(ui, &painter, &background, view, facts, commands);
     }
+    let on_path = flight.is_none() && path.as_ref().is_some_and(|path| path.is_under_pointer(&background));
     // Nothing is dragged in a flight.
+    if !space.picture && flight.is_none() {
+        let before = document.scenario.path.is_some();
+        let edited = path::handles(ui, &painter, &layout, path.as_ref(), &background, facts);
+        if let Some(edited) = edited {
+            state.sections.path |= edited.path.is_some() && !before;
+            commands.push(Command::Edit(Box::new(edited)));
+        }
+    }
     runtime.held =
         if flight.is_some() { Held::default() } else { handles::ui(ui, &painter, &layout, &scene, document, commands) };
     if session.unlocked && flight.is_none() {
         handles::winches(ui, &painter, &layout, &scene, document, commands);
     }
     let wheel_zooms = !session.embedded;
-    handles::camera(&mut session.camera, ui, &background, view, !state.map.on, wheel_zooms);
+    handles::camera(&mut session.camera, ui, &background, view, !state.map.on && !on_path, wheel_zooms);
     let at_left = space.corner.center().x < rect.center().x;
     if state.map.on && space.picture {
         map::key(&runtime.layer, state.map, ui, space.corner, facts);

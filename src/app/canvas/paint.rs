@@ -34,10 +34,9 @@ pub fn background(painter: &Painter, visuals: &Visuals, view: &View) {
     painter.rect_filled(view.rect, 0.0, theme::tokens(visuals).canvas);
 }
 
-/// Draws the workspace, the cables and the winches.
+/// Draws the cables and the winches.
 pub fn scene(pen: &mut Pen<'_>, visuals: &Visuals, layout: &Layout, scene: &Scene, look: Look) {
     let (view, painter, tokens) = (&layout.view, pen.painter, pen.tokens);
-    grid(pen, view, scene);
     for (cable, &winch) in scene.cables.iter().zip(&layout.winches) {
         if cable.nodes.is_empty() && !cable.marked {
             // No shape: the straight line, dashed, so that it reads as missing.
@@ -124,7 +123,7 @@ pub fn dashed(painter: &Painter, line: [Pos2; 2], stroke: Stroke, [dash, gap]: [
 }
 
 /// The workspace's frame, its grid lines and their metres.
-fn grid(pen: &Pen<'_>, view: &View, scene: &Scene) {
+pub fn grid(pen: &Pen<'_>, view: &View, scene: &Scene) {
     let (painter, tokens) = (pen.painter, pen.tokens);
     let frame = view.rect_in_ui(scene.frame);
     let faint = Stroke::new(1.0, tokens.line);

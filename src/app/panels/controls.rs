@@ -6,7 +6,7 @@ use eframe::egui::{
 };
 
 use super::rows::{EditedScenario, in_a_row, rows};
-use super::{cables, plausible, ropes};
+use super::{cables, path, plausible, ropes};
 use crate::app::canvas;
 use crate::app::command::Command;
 use crate::app::facts::Facts;
@@ -25,9 +25,9 @@ use crate::scenario::{Parameter, Scenario};
 pub enum Groups {
     /// All of them.
     All,
-    /// The motion alone, without a title.
+    /// The motion alone, without a title, and the path.
     Motion,
-    /// All but the motion.
+    /// All but the motion and the path.
     Robot,
 }
 
@@ -50,6 +50,13 @@ pub fn ui(
     } else if groups == Groups::All {
         let summary = values(&sheet, &[Parameter::Speed]);
         group(&mut sections.motion, ui, "Motion", &summary, touch, |ui| rows(ui, &mut sheet, &fields::MOTION));
+    }
+    if groups != Groups::Robot {
+        let had_one = sheet.edited.path.is_some();
+        group(&mut sections.path, ui, "Path", &path::summary(&sheet.edited), touch, |ui| {
+            path::ui(ui, &mut sheet, facts, commands);
+        });
+        sections.path |= sheet.edited.path.is_some() && !had_one;
     }
     if groups != Groups::Motion {
         let count = sheet.edited.cables.len().to_string();
@@ -119,6 +126,8 @@ fn reveal(sections: &mut Sections, revealed: Option<Parameter>) {
         sections.platform = true;
     } else if of(&fields::DAMPING) {
         sections.damping = true;
+    } else if parameter.path().starts_with("path.") {
+        sections.path = true;
     } else if parameter == Parameter::Elements {
         sections.model = true;
     } else {
@@ -183,7 +192,7 @@ fn heading(open: bool, ui: &mut Ui, title: &str, summary: &str, height: f32) -> 
     let font = TextStyle::Body.resolve(ui.style());
     let at = rect.left_center() + Vec2::new(22.0, 0.0);
     let name = ui.painter().text(at, Align2::LEFT_CENTER, title, font, tokens.text);
-    if !open || title == "Cables" {
+    if !open || matches!(title, "Cables" | "Path") {
         let font = FontId::proportional(theme::CAPTION);
         let text = RichText::new(summary).color(tokens.weak);
         let room = rect.max.x - name.max.x - 12.0;

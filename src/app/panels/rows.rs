@@ -138,7 +138,7 @@ fn slider(
 }
 
 /// Puts the number that was typed, dragged or slid in its place, where it is allowed.
-fn take(ui: &Ui, sheet: &mut EditedScenario<'_>, field: &Field, answer: number::NumberResponse) {
+pub(super) fn take(ui: &Ui, sheet: &mut EditedScenario<'_>, field: &Field, answer: number::NumberResponse) {
     if let Some(value) = answer.value {
         // A hand that drags too far stops at zero, where there is nothing beyond.
         let value = if field.range[0] == 0.0 && answer.response.dragged() { value.max(0.0) } else { value };

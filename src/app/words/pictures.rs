@@ -75,6 +75,8 @@ pub fn of(word: Word) -> Vec<PicturePart> {
         Word::WaveLimit => wave_limit(),
         Word::WaveRatio => wave_ratio(),
         Word::Gain => gain(),
+        Word::Path => path(),
+        Word::MotionProfile => motion_profile(),
         Word::Flutter => over_time(|t| -3.0 * (2.2 * t).exp() * (5.0 * TAU * t).sin(), Ink::Critical),
         Word::Divergence => over_time(|t| -2.5 * (2.55 * t).exp(), Ink::Critical),
         Word::GrowthRate => growth_rate(),
@@ -183,6 +185,43 @@ fn wave_ratio() -> Vec<PicturePart> {
         PicturePart::Text([LEFT + 38.0, 14.0], MIDDLE, "wave limit", Ink::Waves),
         PicturePart::Text([across(0.5), 84.0], MIDDLE, "speed along the path", Ink::Accent),
     ]
+}
+
+fn path() -> Vec<PicturePart> {
+    let at = |t: f32| [40.0 + 140.0 * t, 44.0 - 18.0 * (TAU * t).sin()];
+    let mut parts = vec![line(curve(at), Ink::Accent)];
+    // Equal times of a quintic.
+    for i in 1..8_u8 {
+        let time = f32::from(i) / 8.0;
+        let [x, y] = at(time.powi(3) * (10.0 - 15.0 * time + 6.0 * time * time));
+        parts.push(thin([[x, y - 5.0], [x, y + 5.0]]));
+    }
+    parts.push(PicturePart::Dot(at(0.0), 5.0, Ink::Accent));
+    parts.push(PicturePart::Dot(at(1.0), 5.0, Ink::Accent));
+    parts.push(PicturePart::Text([40.0, 62.0], MIDDLE, "start", Ink::Weak));
+    parts.push(PicturePart::Text([180.0, 62.0], MIDDLE, "stop", Ink::Weak));
+    parts
+}
+
+/// The speeds of the three profiles from rest to rest over time, one beside the other.
+fn motion_profile() -> Vec<PicturePart> {
+    let (bottom, top, width) = (66.0, 22.0, 56.0);
+    let quintic = |t: f32| 16.0 * t * t * (1.0 - t) * (1.0 - t);
+    let trapezoid = |t: f32| (t.min(1.0 - t) / 0.3).min(1.0);
+    let s_curve = move |t: f32| {
+        let rise = (t.min(1.0 - t) / 0.4).min(1.0);
+        if rise < 0.5 { 2.0 * rise * rise } else { 1.0 - 2.0 * (1.0 - rise) * (1.0 - rise) }
+    };
+    let profiles: [(&'static str, &dyn Fn(f32) -> f32); 3] =
+        [("quintic", &quintic), ("trapezoid", &trapezoid), ("S-curve", &s_curve)];
+    let mut parts = Vec::new();
+    for ((name, speed), left) in profiles.into_iter().zip([LEFT, 82.0, 152.0]) {
+        parts.push(thin([[left, bottom], [left + width, bottom]]));
+        parts.push(line(curve(|t| [left + width * t, bottom - (bottom - top) * speed(t)]), Ink::Accent));
+        parts.push(PicturePart::Text([left + 0.5 * width, 79.0], MIDDLE, name, Ink::Weak));
+    }
+    parts.push(PicturePart::Text([LEFT, 10.0], BEGINS, "speed", Ink::Weak));
+    parts
 }
 
 fn gain() -> Vec<PicturePart> {

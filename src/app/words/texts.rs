@@ -89,6 +89,22 @@ impl Word {
                 equation: "size of a vibration: √(energy/ω), from rest to rest",
                 see_also: &[Self::FrozenTime, Self::WaveRatio, Self::ModeShape],
             },
+            Self::Path => Card {
+                title: "Path",
+                text: "The way of the platform from where it is to other points. It goes straight to each of them and rests \
+                       there, or along a smooth curve through all of them. The marks across the line are at equal \
+                       times: where they are far apart the platform is fast.",
+                equation: "position p(s), s the length of the way so far",
+                see_also: &[Self::MotionProfile, Self::WaveLimit, Self::Gain],
+            },
+            Self::MotionProfile => Card {
+                title: "Motion profile",
+                text: "How the speed rises and falls along the path. A quintic is smooth in speed and acceleration. A \
+                       trapezoid has a constant acceleration, which begins and ends at once. An S-curve limits the jerk \
+                       as well: how fast the acceleration changes. The smoother the profile, the less it shakes the robot.",
+                equation: "quintic: s = D (10 τ³ − 15 τ⁴ + 6 τ⁵), τ = t/T, T = 15 D/(8 v)",
+                see_also: &[Self::Path, Self::Gain],
+            },
             Self::Flutter => Card {
                 title: "Flutter",
                 text: "One way to lose stability: a vibration swings to and fro, and every swing is larger than the \
@@ -162,7 +178,7 @@ impl Word {
                 text: "While the platform moves, each winch takes cable in or lets it out. Reeling in feeds the cable's \
                        vibration with energy and raises its frequency; paying out does the opposite.",
                 equation: "dL/dt = v L′; reeled in where L′ < 0",
-                see_also: &[Self::UnstretchedLength, Self::WaveLimit, Self::FrozenTime, Self::Holding],
+                see_also: &[Self::Path, Self::UnstretchedLength, Self::WaveLimit, Self::FrozenTime, Self::Holding],
             },
             Self::Slack => Card {
                 title: "Slack",

@@ -13,6 +13,10 @@ pub enum Word {
     WaveRatio,
     /// The gain of a move.
     Gain,
+    /// A path.
+    Path,
+    /// A motion profile.
+    MotionProfile,
     /// Flutter.
     Flutter,
     /// Divergence.
@@ -45,7 +49,7 @@ pub enum Word {
 
 impl Word {
     /// All of them, what comes first to a reader first.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 21] = [
         Self::CriticalSpeed,
         Self::Flutter,
         Self::Divergence,
@@ -53,6 +57,8 @@ impl Word {
         Self::WaveLimit,
         Self::WaveRatio,
         Self::Gain,
+        Self::Path,
+        Self::MotionProfile,
         Self::ModeShape,
         Self::GrowthRate,
         Self::DampingRatio,
