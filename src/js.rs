@@ -6,10 +6,13 @@
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
-use crate::robot::{Motion, Robot};
-use crate::scenario::options::{MapOptions, max_speed};
+use crate::robot::{Motion, Robot, Trajectory};
+use crate::scenario::flight_report::FlightReport;
+use crate::scenario::limits_report::LimitsReport;
+use crate::scenario::options::{self, MapOptions, max_speed};
 use crate::scenario::report::{CriticalReport, KindReport, StatusReport, WaveLimitReport};
 use crate::scenario::{Report, Scenario};
+use crate::steps::Steps;
 use crate::study::{Answer, Directions, Grid, Mapped, Study, Verdict};
 
 type Text = Result<String, JsError>;
@@ -35,6 +38,55 @@ pub fn critical_speed(scenario: &str, options: &str) -> Text {
     let Report { feasible, reason, critical, searched_up_to, wave_limit, status, .. } = report;
     let critical = critical.into();
     Ok(serde_json::to_string(&CriticalSpeed { feasible, reason, critical, searched_up_to, wave_limit, status })?)
+}
+
+/// A long computation whose result is JSON text, step by step, so that the page can do something else between.
+#[wasm_bindgen]
+pub struct Computation(Steps<Text>);
+
+#[wasm_bindgen]
+impl Computation {
+    /// The flight along the scenario's path: `tautline/flight/1`. Nothing is computed yet.
+    ///
+    /// # Errors
+    /// All that is wrong with the scenario or the options.
+    pub fn fly(scenario: &str, options: &str) -> Result<Self, JsError> {
+        let (robot, trajectory, hold) = move_of(scenario)?;
+        let options = options::flight(options, hold)?;
+        Ok(Self(Steps::new(async move {
+            Ok(serde_json::to_string(&FlightReport::in_steps(&robot, &trajectory, &options).await)?)
+        })))
+    }
+
+    /// The fastest move along the scenario's path: `tautline/limits/1`. Nothing is computed yet.
+    ///
+    /// # Errors
+    /// All that is wrong with the scenario or the options.
+    pub fn limits(scenario: &str, options: &str) -> Result<Self, JsError> {
+        let (robot, trajectory, _) = move_of(scenario)?;
+        let options = options::limits(options)?;
+        Ok(Self(Steps::new(async move {
+            Ok(serde_json::to_string(&LimitsReport::in_steps(&robot, &trajectory, &options).await)?)
+        })))
+    }
+
+    /// Does the next step; the text after the last one.
+    ///
+    /// # Errors
+    /// None in practice: every result can be written.
+    pub fn advance(&mut self) -> Result<Option<String>, JsError> {
+        self.0.advance().transpose()
+    }
+}
+
+/// The robot of a scenario, its trajectory, and how long a flight goes on after it, in s.
+fn move_of(scenario: &str) -> Result<(Robot, Trajectory, f64), JsError> {
+    let scenario = Scenario::from_json(scenario)?;
+    let (robot, _) = scenario.to_robot()?;
+    let hold = scenario.path.as_ref().map_or(0.0, |path| path.hold);
+    let trajectory = scenario.trajectory();
+    let trajectory = trajectory.ok_or_else(|| JsError::new("path: missing; allowed: a path to fly along"))?;
+    Ok((robot, trajectory, hold))
 }
 
 /// A map over the workspace, to be computed row by row of its table, so that the page can do something else between.

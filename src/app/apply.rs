@@ -12,16 +12,16 @@ use super::picture::{self, Format, Frame, Picture};
 use super::state::{Document, Plot, SheetTab, UiState};
 use super::studies::Owner;
 use super::theme::{self, Tokens};
-use super::{Command, Tautline, canvas, fields, number, view_link};
-use crate::compute::protocol::Request;
+use super::{Command, Tautline, canvas, fields, number, paths, view_link};
+use crate::compute::protocol::{Request, Topic};
 use crate::scenario::report::sentence;
-use crate::scenario::{Parameter, Path, Scenario, link, table};
-use crate::study::workspace;
+use crate::scenario::{Parameter, Scenario, link, table};
 
 /// Said where there is nothing to save.
 const NOTHING: &str = "There is nothing to save yet: it is not on show, or still being computed.";
 
 impl Tautline {
+    #[expect(clippy::too_many_lines)] // One arm for each command.
     pub(super) fn apply(&mut self, context: &Context, command: Command) {
         match command {
             Command::Edit(scenario) => {
@@ -197,18 +197,13 @@ impl Tautline {
         }
     }
 
-    /// Gives the robot a path in the direction of its motion, at its speed: to the mirrored point where it is off the
-    /// middle, else a quarter of the workspace ahead.
+    /// A path to where one usually leads, as a step of its own.
     fn add_path(&mut self) {
-        let mut document = self.present.document.clone();
-        let Ok((robot, motion)) = document.scenario.to_robot() else { return };
-        let [low, high] = workspace(&robot);
-        let (start, direction) = (motion.position(), motion.direction());
-        let ahead = direction.dot(&(0.5 * (low + high) - start));
-        let quarter = 0.25 * (high - low).component_mul(&direction).norm();
-        let way = if ahead > 0.2 * quarter { 2.0 * ahead } else { quarter };
-        let end = start + way * direction;
-        document.scenario.path = Some(Path { hold: 2.0, ..Path::new(vec![end.into()], motion.speed().max(1.0)) });
+        let scenario = &self.present.document.scenario;
+        let border = self.present.studies.shown(Topic::Border).map(|shown| shown.known);
+        let end = paths::usual_end(scenario, canvas::frame(scenario), border);
+        let Some(scenario) = paths::begun(scenario, end) else { return };
+        let document = Document { scenario, original: self.present.document.original.clone() };
         self.history.step(&self.present.document);
         self.edit(document);
         self.history.step(&self.present.document);

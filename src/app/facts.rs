@@ -31,7 +31,7 @@ impl Present {
     pub fn facts(&self, settings: Settings, mode: ModeChoice) -> Facts<'_> {
         let Self { document, answers, studies, joined, designs, flying } = self;
         let certainty = Certainty::known(&document.scenario, answers, studies);
-        Facts { document, answers, studies, joined, designs, flying, certainty, settings, mode }
+        Facts { document, answers, studies, joined, flying, designs, certainty, settings, mode }
     }
 }
 

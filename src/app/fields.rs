@@ -101,6 +101,7 @@ const WINCH: &str = "Where the winch is: x to the right, y up. Once unlocked it 
 
 impl Field {
     /// The field of a number; the sliders of places follow `frame`, the box that the winches span.
+    #[expect(clippy::too_many_lines)] // One arm for each number.
     pub fn of(parameter: Parameter, frame: BoundingBox) -> Self {
         let (low, high) = (frame.low, frame.high);
         let named = |name, symbol, unit, range, meaning| Self {

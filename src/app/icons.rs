@@ -71,6 +71,7 @@ pub enum Icon {
 }
 
 /// Lines of the pictures on a square from 0 to 16, y down.
+#[expect(clippy::too_many_lines)] // One arm for each picture.
 fn lines(icon: Icon) -> &'static [&'static [[f32; 2]]] {
     match icon {
         Icon::PanelLeft => &[BOX, &[[6.0, 3.0], [6.0, 13.0]]],

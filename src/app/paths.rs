@@ -8,6 +8,8 @@ use crate::study::{Answer, Study};
 
 /// The speed of a new path in m/s where the motion has none.
 const SPEED: f64 = 1.0;
+/// How long a flight goes on after a new path, in s: what is left of vibrations is to be seen.
+const HOLD: f64 = 2.0;
 /// A mirrored point is an end where it is farther away than this part of the robot's width.
 const FAR: f64 = 0.2;
 /// Else the end is at this part of the way to the edge of the robot.
@@ -21,8 +23,9 @@ const PIECES: usize = 200;
 pub fn begun(scenario: &Scenario, end: [f64; 2]) -> Option<Scenario> {
     let Scenario { motion, .. } = scenario;
     let speed = if motion.speed > 0.0 { motion.speed } else { SPEED };
-    let path = Some(Path::new(vec![end], speed));
-    (motion.position != end).then(|| Scenario { path, ..scenario.clone() })
+    let path = Some(Path { hold: HOLD, ..Path::new(vec![end], speed) });
+    let elsewhere = motion.position.iter().zip(end).any(|(start, end)| start.total_cmp(&end).is_ne());
+    elsewhere.then(|| Scenario { path, ..scenario.clone() })
 }
 
 /// Where a new path leads: to the point opposite of the platform, as seen from the middle of `frame`, the box that the winches

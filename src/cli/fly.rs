@@ -10,10 +10,11 @@ use crate::cli::text::digits;
 use crate::flight::FlightOptions;
 use crate::robot::Vec2;
 use crate::scenario::flight_report::FlightReport;
+use crate::scenario::options::MOST_SAMPLES;
 use crate::steps::finish_watched;
 
-/// The most samples.
-const SAMPLES: std::ops::RangeInclusive<i64> = 2..=1_000_000;
+/// How many samples there may be.
+const SAMPLES: std::ops::RangeInclusive<i64> = 2..=MOST_SAMPLES as i64;
 
 /// Fly a path: how far the platform strays, when a cable goes slack, and what becomes of vibrations.
 ///

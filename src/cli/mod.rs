@@ -4,6 +4,7 @@ mod analyze;
 mod course;
 mod example;
 mod fly;
+mod limits;
 mod link;
 mod map;
 mod output;
@@ -64,6 +65,7 @@ enum Verb {
     Example(example::Args),
     Link(link::Args),
     Fly(fly::Args),
+    Limits(limits::Args),
 }
 
 /// Where the program reads and writes: the process's own streams, or a test's.
@@ -94,6 +96,7 @@ pub fn run_with(arguments: impl IntoIterator<Item = OsString>, streams: Streams)
         Ok(Args { verb: Some(Verb::Example(args)), .. }) => example::run(&args),
         Ok(Args { verb: Some(Verb::Link(args)), .. }) => link::run(&args, input),
         Ok(Args { verb: Some(Verb::Fly(args)), .. }) => fly::run(&args, input),
+        Ok(Args { verb: Some(Verb::Limits(args)), .. }) => limits::run(&args, input),
         Ok(Args { verb: None, file: None }) => return Start::App { scenario: None },
         Ok(Args { verb: None, file: Some(file) }) => match read_scenario(&file, input) {
             Ok(scenario) => return Start::App { scenario: Some(Box::new(scenario)) },

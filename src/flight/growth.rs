@@ -315,15 +315,18 @@ impl<const N: usize> Stage<N> {
         let hub = DMatrix::from_diagonal_element(N, N, mass * (1.0 + g * alpha));
         let joint = OMatrix::<f64, Const<N>, Dyn>::identity_generic(Const, Dyn(N));
         // Each element with its matrices, so that it is made of them once.
-        let pairs: Vec<Vec<(&Element, &[Blocks<f64, N>; 2])>> =
+        let pairs: Vec<Vec<_>> =
             elements.iter().zip(&chains).map(|(elements, blocks)| elements.iter().zip(blocks).collect()).collect();
-        let arrow =
-            Arrow::factor(hub, pairs.iter().map(|pairs| (pairs.as_slice(), joint.clone())), |(element, [c, k])| {
+        let arrow = Arrow::factor(
+            hub,
+            pairs.iter().map(|pairs| (pairs.as_slice(), joint.clone())),
+            |(element, [c, k]): &(&Element, &[Blocks<f64, N>; 2])| {
                 let of_mass = element.mass();
                 [0, 1].map(|i| {
                     [0, 1].map(|j| SMatrix::from_diagonal_element(of_mass[(i, j)]) + c[i][j] * g + k[i][j] * (g * g))
                 })
-            });
+            },
+        );
         Self { chains, hub: alpha * mass, arrow }
     }
 

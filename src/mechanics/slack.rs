@@ -1,8 +1,8 @@
 //! The slack acceleration: how hard the platform may speed up or brake before a cable goes slack.
 //!
 //! All lengths follow the quasi-static motion r(s). At v = 0 the acceleration s̈ leaves the inertia M r' s̈ of nodes and
-//! platform, and that of the material that is reeled, (∂K_dyn/∂s̈) r s̈. Both bend the robot by δ s̈ with
-//! K δ = −(M r' + (∂K_dyn/∂s̈) r). docs/theory.md section 16.
+//! platform, and that of the material that is reeled, (∂`K_dyn`/∂s̈) r s̈. Both bend the robot by δ s̈ with
+//! K δ = −(M r' + (∂`K_dyn`/∂s̈) r). docs/theory.md section 16.
 
 use nalgebra::{DMatrix, DVector, Vector2};
 

@@ -5,6 +5,7 @@ pub mod file;
 pub mod flight_report;
 pub mod json;
 mod layout;
+pub mod limits_report;
 pub mod link;
 pub mod messages;
 pub mod options;

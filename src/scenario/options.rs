@@ -1,5 +1,6 @@
 //! What programs may ask for besides the scenario, as JSON: how far to search, and where a map looks.
 
+use crate::flight::{FlightOptions, LimitOptions};
 use crate::robot::{Fault, Faults, Vec2};
 use crate::scenario::reader::{Document, Object, Value};
 use crate::scenario::report::DEFAULT_MAX_SPEED;
@@ -20,6 +21,11 @@ pub fn max_speed(text: &str) -> Result<f64, Faults> {
     checked(&document, faults)?;
     Ok(speed)
 }
+
+/// The most samples of a flight.
+pub const MOST_SAMPLES: u32 = 1_000_000;
+/// The part of the local limits that the fastest move keeps below, unless told otherwise.
+pub const SAFETY: f64 = 0.8;
 
 /// What a map is to show.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,6 +63,66 @@ impl MapOptions {
         checked(&document, faults)?;
         Ok(Self { nx, ny, directions, limit })
     }
+}
+
+/// What a flight of a scenario's path is asked: `{"kick": [px, py], "samples": N, "accuracy": M}`, each of which may be missing;
+/// `hold` (s) is the path's.
+///
+/// # Errors
+/// All that is wrong, field by field.
+pub fn flight(text: &str, hold: f64) -> Result<FlightOptions, Faults> {
+    let document = Document::new("options", text)?;
+    let mut faults = Vec::new();
+    let options = document.root().object(&["kick", "samples", "accuracy"]);
+    let default = FlightOptions { hold, ..FlightOptions::default() };
+    let samples = options.optional("samples").map_or(default.samples, |samples| {
+        let allowed = format!("a whole number from 2 to {MOST_SAMPLES}");
+        let count = samples.whole(&allowed);
+        if !(2..=MOST_SAMPLES as usize).contains(&count) {
+            faults.push(Fault::new("samples", count, allowed));
+        }
+        count
+    });
+    let accuracy = positive(&options, "accuracy", &mut faults).unwrap_or(default.accuracy);
+    let kick = options.optional("kick").map_or(default.kick, |kick| Vec2::from(kick.vector()));
+    checked(&document, faults)?;
+    Ok(FlightOptions { kick, accuracy, samples, ..default })
+}
+
+/// What limits the fastest move: `{"safety": K, "by": "frozen" | "wave" | "both", "acceleration": A, "winchSpeed": V,
+/// "winchAcceleration": A, "slack": K}`, each of which may be missing: a limit that is not given does not act.
+///
+/// # Errors
+/// All that is wrong, field by field.
+pub fn limits(text: &str) -> Result<LimitOptions, Faults> {
+    let document = Document::new("options", text)?;
+    let mut faults = Vec::new();
+    let options = document.root().object(&["safety", "by", "acceleration", "winchSpeed", "winchAcceleration", "slack"]);
+    let choices = [("frozen", [true, false]), ("wave", [false, true]), ("both", [true, true])];
+    let [frozen, waves] = (options.optional("by"))
+        .and_then(|by| by.choice(&choices, r#""frozen", "wave" or "both""#))
+        .unwrap_or([true, true]);
+    let mut number = |name| positive(&options, name, &mut faults);
+    let options = LimitOptions {
+        safety: number("safety").unwrap_or(SAFETY),
+        frozen,
+        waves,
+        slack: number("slack"),
+        acceleration: number("acceleration"),
+        winch_speed: number("winchSpeed"),
+        winch_acceleration: number("winchAcceleration"),
+    };
+    checked(&document, faults)?;
+    Ok(options)
+}
+
+/// A number that has to be greater than 0, where it is given.
+fn positive(options: &Object, name: &'static str, faults: &mut Vec<Fault>) -> Option<f64> {
+    let number = options.optional(name)?.number();
+    if number <= 0.0 {
+        faults.push(Fault::new(name, number, "a finite number greater than 0"));
+    }
+    Some(number)
 }
 
 fn read_max_speed(options: &Object, faults: &mut Vec<Fault>) -> f64 {
@@ -108,6 +174,26 @@ mod tests {
         assert_eq!(with(r#""worst""#), Ok(Some(Directions::Worst(16))));
         assert_eq!(with(r#""-y""#), Ok(Some(Directions::One(Vec2::new(0.0, -1.0)))));
         assert_eq!(with("[-3, 4e0]"), Ok(Some(Directions::One(Vec2::new(-3.0, 4.0)))));
+    }
+
+    #[test]
+    fn options_of_flights_and_limits_are_read() {
+        let found = flight(r#"{"kick": [0, -1], "samples": 5}"#, 2.0);
+        assert_eq!(
+            found,
+            Ok(FlightOptions { kick: Vec2::new(0.0, -1.0), samples: 5, hold: 2.0, ..FlightOptions::default() })
+        );
+        let message = |text| flight(text, 0.0).expect_err(text).to_string();
+        assert!(message(r#"{"samples": 1}"#).starts_with("samples: 1 is not allowed; allowed: a whole number from 2"));
+        assert!(
+            message(r#"{"accuracy": 0}"#).starts_with("accuracy: 0 is not allowed; allowed: a finite number greater")
+        );
+        let found = limits(r#"{"by": "wave", "acceleration": 6}"#).expect("limits");
+        assert!((found.safety - 0.8).abs() < 1e-15 && !found.frozen && found.waves && found.acceleration == Some(6.0));
+        assert_eq!((found.slack, found.winch_speed, found.winch_acceleration), (None, None, None));
+        let message = |text| limits(text).expect_err(text).to_string();
+        assert!(message(r#"{"by": "luck"}"#).starts_with("by: \"luck\" is not allowed; allowed: \"frozen\""));
+        assert!(message(r#"{"winchSpeed": -1}"#).starts_with("winchSpeed: -1 is not allowed"));
     }
 
     #[test]

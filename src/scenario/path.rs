@@ -235,7 +235,7 @@ mod tests {
     fn faults_name_the_field_the_value_and_what_is_allowed() {
         for (path, expected) in [
             (r#"{"points": []}"#, "path.points: a list of 0 is not allowed; allowed: a list of 1 to 100 points"),
-            (r#"{}"#, "path.points: missing; allowed: a list of 1 to 100 points [x, y]"),
+            ("{}", "path.points: missing; allowed: a list of 1 to 100 points [x, y]"),
             (
                 r#"{"points": [[0, 0]]}"#,
                 "path.points[0]: [0, 0] is not allowed; allowed: another point than motion.position",

@@ -148,7 +148,7 @@ mod tests {
         let robot = paper().expect("the paper's robot");
         let frozen = vec![(0.0, Some(4.0)), (6.0, Some(0.0)), (12.0, None)];
         let options = LimitOptions { frozen: true, ..asked().options };
-        let refused = finish(Allowed { frozen, options }.fastest_in_steps(&robot, &across(5.0)));
+        let refused = finish(Allowed { options, frozen }.fastest_in_steps(&robot, &across(5.0)));
         assert!(refused.is_err_and(|reason| reason.contains("the critical speed is 0")));
     }
 }

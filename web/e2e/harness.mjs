@@ -140,10 +140,10 @@ after(async () => {
 /**
  * A test with pages of its own. It fails on every console error, uncaught error, failed request and request to another
  * server of its pages, except those whose text matches one of `allow` (regular expressions). When it fails, what
- * its pages showed is in target/pictures/.
+ * its pages showed is in target/pictures/. `skip` is the reason why it is not run.
  */
-export function browserTest(name, body, { allow = [], timeout = 60_000, site = SITES.page } = {}) {
-    test(name, { timeout }, async () => {
+export function browserTest(name, body, { allow = [], timeout = 60_000, site = SITES.page, skip = false } = {}) {
+    test(name, { timeout, skip }, async () => {
         if (!existsSync(site.folder)) throw new Error(`${site.folder} is missing: run ${site.build} first`);
         const { browser, address } = await share(site);
         const pages = [];

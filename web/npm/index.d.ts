@@ -7,7 +7,8 @@ export type Vector = readonly [x: number, y: number];
 
 /** A robot, where its platform is and how it moves: the scenario file as an object. There are no other fields. */
 export interface Scenario {
-    /** The format's name and version. The second one is needed where a cable has `cable`; leave it out and either is read. */
+    /** The format's name and version. The second one is needed where a cable has `cable` or there is a `path`; leave it out and
+     *  either is read. */
     readonly schema?: "tautline/scenario/1" | "tautline/scenario/2";
     /** A title for people. */
     readonly name?: string;
@@ -40,6 +41,26 @@ export interface Scenario {
         /** In m/s, 0 or more. */
         readonly speed: number;
     };
+    /** Where the platform flies from there. */
+    readonly path?: Path;
+}
+
+/** A path that begins at the motion's position. */
+export interface Path {
+    /** 1 to 100 points in m, passed in turn. */
+    readonly points: readonly Vector[];
+    /** Straight from point to point, at rest in each, or along a cubic spline. "stop" unless given. */
+    readonly corners?: "stop" | "smooth";
+    /** The motion profile, of each leg where corners are stops. "quintic" unless given; "constant" does not rest at its ends. */
+    readonly profile?: "quintic" | "trapezoid" | "scurve" | "constant";
+    /** The peak speed in m/s, greater than 0; that of the motion unless given. */
+    readonly speed?: number;
+    /** Of trapezoids and S-curves, in m/s², greater than 0. 1 unless given. */
+    readonly acceleration?: number;
+    /** Of S-curves, in m/s³, greater than 0. 10 unless given. */
+    readonly jerk?: number;
+    /** How long a flight goes on after the end, in s: 0 or more, 0 unless given. */
+    readonly hold?: number;
 }
 
 export interface CableMaterial {
@@ -261,6 +282,80 @@ export interface EmptyMapRow {
     status: "none" | "infeasible" | "failed";
 }
 
+/** `tautline/flight/1`, what `tautline fly --json` prints. */
+export interface Flight {
+    schema: "tautline/flight/1";
+    /** Whether there is a taut equilibrium all along the path. */
+    feasible: boolean;
+    /** Why there is none, or why the flight ends early, as a sentence. */
+    reason: string | null;
+    /** How long the move takes, in s. */
+    duration: number;
+    /** Until when it was to be flown, in s. */
+    end: number;
+    /** The platform's largest distance from its path, in m. */
+    max_deviation: number | null;
+    /** The same after the end of the move, in m; null without `hold`. */
+    residual: number | null;
+    /** The first moment (s) at which an element has to push, its cable, and the least force of the whole flight (N). */
+    slack: { time: number; cable: number; force: number } | null;
+    /** How many times larger a vibration can be after the move: amplitude ratios. */
+    gain: { action: number; energy: number; displacement: number } | null;
+    /** What the frozen eigenvalues say instead. */
+    frozen_growth: number | null;
+    /** The largest speed over wave limit: below 1 nothing grows without bound. */
+    wave_ratio: { value: number; s: number; cable: number; reeled_in: boolean } | null;
+    /** Along the path: in m/s, at the arc length s (m). */
+    least_critical_speed: { speed: number; s: number } | null;
+    /** Along the path: in m/s, at the arc length s (m). */
+    least_wave_limit: { speed: number; s: number } | null;
+    samples: FlightSample[];
+}
+
+/** A flight at one time. SI units; lists have an entry per cable. */
+export interface FlightSample {
+    t: number;
+    s: number;
+    v: number;
+    a: number;
+    deviation: [x: number, y: number];
+    deviation_velocity: [x: number, y: number];
+    tension_at_platform: number[];
+    element_force_at_winch: number[];
+    unstretched_length: number[];
+    smallest_element_force: number;
+}
+
+/** `tautline/limits/1`, what `tautline limits --json` prints. */
+export interface Limits {
+    schema: "tautline/limits/1";
+    feasible: boolean;
+    /** Why there is no such move, as a sentence. */
+    reason: string | null;
+    /** In s. */
+    duration: number | null;
+    /** In m/s. */
+    peak_speed: number | null;
+    rows: LimitsRow[];
+}
+
+/** The fastest move at one place. SI units; lists have an entry per cable. */
+export interface LimitsRow {
+    t: number;
+    s: number;
+    position: [x: number, y: number];
+    v: number;
+    /** From here to the next row. */
+    a: number;
+    unstretched_length: number[];
+    rate: number[];
+    acceleration: number[];
+    /** At rest. */
+    tension_at_platform: number[];
+    /** At rest. */
+    tension_at_winch: number[];
+}
+
 // ---- Functions ---------------------------------------------------------------------------------------------------
 
 export interface SearchOptions {
@@ -315,3 +410,42 @@ export function criticalSpeed(scenario: Scenario | string, options?: SearchOptio
  * Errors as for `analyze`; the promise is rejected with them.
  */
 export function map(scenario: Scenario | string, options: MapOptions): Promise<MapRow[]>;
+
+export interface FlightOptions {
+    /** An impulse on the platform at the beginning, in N s. */
+    kick?: Vector | undefined;
+    /** How many samples, equally spaced: a whole number from 2 on. 21 unless given. */
+    samples?: number | undefined;
+    /** The platform's error that the steps are chosen for, in m. 1e-6 unless given. */
+    accuracy?: number | undefined;
+    /** Its abort stops the flight; the promise is rejected with the signal's reason. */
+    signal?: AbortSignal | undefined;
+}
+
+/**
+ * The non-linear flight along the scenario's path, from the quasi-static state, and the growth along it. Computed in the calling
+ * thread, with frequent pauses that let others have their turn.
+ *
+ * Errors as for `analyze`; the promise is rejected with them.
+ */
+export function fly(scenario: Scenario | string, options?: FlightOptions): Promise<Flight>;
+
+export interface LimitsOptions {
+    /** The part of the local limits that the speed keeps below. 0.8 unless given. */
+    safety?: number | undefined;
+    /** Which local limits act: the frozen critical speed, the wave limit, or both, as unless given. */
+    by?: "frozen" | "wave" | "both" | undefined;
+    /** Of the platform along its path, in m/s². Limits that are not given do not act. */
+    acceleration?: number | undefined;
+    /** Of every winch, in m/s of cable. */
+    winchSpeed?: number | undefined;
+    /** Of every winch, in m/s² of cable. */
+    winchAcceleration?: number | undefined;
+    /** The part of the slack acceleration that the acceleration keeps below. */
+    slack?: number | undefined;
+    /** Its abort stops it; the promise is rejected with the signal's reason. */
+    signal?: AbortSignal | undefined;
+}
+
+/** The fastest move from rest to rest along the scenario's path. Errors and pauses as for `fly`. */
+export function limits(scenario: Scenario | string, options?: LimitsOptions): Promise<Limits>;

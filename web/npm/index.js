@@ -1,7 +1,7 @@
 // The package's functions, described in index.d.ts: objects in, objects out. The module behind speaks JSON text.
 import start, * as core from "./tautline.js";
 
-/** So long (in ms) a map is computed at a stretch before others have their turn. */
+/** So long (in ms) something is computed at a stretch before others have their turn. */
 const STRETCH = 15;
 
 let started = false;
@@ -37,6 +37,32 @@ export async function map(scenario, { onProgress, signal, ...options } = {}) {
         return rows;
     } finally {
         study.free();
+    }
+}
+
+export async function fly(scenario, { signal, ...options } = {}) {
+    return inSteps(ready().Computation.fly(text("scenario", scenario), text("options", options)), signal);
+}
+
+export async function limits(scenario, { signal, ...options } = {}) {
+    return inSteps(ready().Computation.limits(text("scenario", scenario), text("options", options)), signal);
+}
+
+/** The result of a computation, with pauses. */
+async function inSteps(computation, signal) {
+    try {
+        signal?.throwIfAborted();
+        let since = performance.now();
+        for (;;) {
+            const result = computation.advance();
+            if (result !== undefined) return JSON.parse(result);
+            if (performance.now() - since < STRETCH) continue;
+            await pause();
+            signal?.throwIfAborted();
+            since = performance.now();
+        }
+    } finally {
+        computation.free();
     }
 }
 

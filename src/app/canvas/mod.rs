@@ -161,7 +161,7 @@ pub fn ui(
     paint::grid(&pen, view, &scene);
     let path = path::PathOnCanvas::new(&document.scenario, view);
     if let Some(path) = &path {
-        path.paint(&mut pen, look.compact);
+        path.paint(&mut pen, look.compact, &series::margins(facts));
     }
     if let Some(flight) = &flight {
         flight::under(&mut pen, view, flight, facts.flying.time);
@@ -208,19 +208,33 @@ pub fn ui(
     }
     let wheel_zooms = !session.embedded;
     handles::camera(&mut session.camera, ui, &background, view, !state.map.on && !on_path, wheel_zooms);
-    let at_left = space.corner.center().x < rect.center().x;
+    key(runtime, state, ui, (rect, space), [strongest, largest.unwrap_or(0.0)], facts, commands);
+    if !space.picture {
+        fit(runtime, &mut session.camera, ui, rect, space, state.map.on);
+    }
+    rect
+}
+
+/// What the colours mean, and with a map what it shows.
+fn key(
+    runtime: &mut Runtime,
+    state: &mut UiState,
+    ui: &mut Ui,
+    (rect, space): (Rect, Space),
+    forces: [f64; 2],
+    facts: Facts<'_>,
+    commands: &mut Vec<Command>,
+) {
     if state.map.on && space.picture {
         map::key(&runtime.layer, state.map, ui, space.corner, facts);
     } else if state.map.on {
         map::controls(&mut runtime.layer, &mut state.map, ui, space.corner, facts, commands);
     } else if space.legend {
-        let forces = [strongest, largest.unwrap_or(0.0)];
-        legend::tensions(&painter, ui.visuals(), &pen.font, space.corner, at_left, forces);
+        let at_left = space.corner.center().x < rect.center().x;
+        let painter = ui.painter_at(rect);
+        let font = TextStyle::Small.resolve(ui.style());
+        legend::tensions(&painter, ui.visuals(), &font, space.corner, at_left, forces);
     }
-    if !space.picture {
-        fit(runtime, &mut session.camera, ui, rect, space, state.map.on);
-    }
-    rect
 }
 
 /// Draws what is on the canvas for a picture, in all the room there is, with the colours' ranges that are on the screen.

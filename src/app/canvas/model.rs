@@ -189,7 +189,7 @@ pub fn advance(playback: &mut Playback, answers: &Answers, seconds: f64) {
     let Some(mode) = answers.shape() else { return };
     match playback.movement {
         Movement::LetGo | Movement::Fly => {
-            playback.since = Release::new(mode.eigenvalue, playback).after(playback.since, seconds)
+            playback.since = Release::new(mode.eigenvalue, playback).after(playback.since, seconds);
         }
         Movement::Mode => playback.phase = (playback.phase + phase_advance(mode, playback, seconds)) % TAU,
     }

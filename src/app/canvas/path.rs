@@ -53,10 +53,19 @@ impl PathOnCanvas {
     }
 
     /// Draws line, marks and points, and says where it starts and stops.
-    pub fn paint(&self, pen: &mut Pen<'_>, compact: bool) {
+    ///
+    /// The line has the colours of `margins`, arc length (m) and speed over wave limit in rising order, as far as these are
+    /// known; beyond 1 that of what is critical.
+    pub fn paint(&self, pen: &mut Pen<'_>, compact: bool, margins: &[(f64, f64)]) {
         let (painter, tokens) = (pen.painter, pen.tokens);
         let line: Vec<Pos2> = self.line.iter().map(|point| point.1).collect();
         painter.line(line.clone(), Stroke::new(LINE, tokens.track));
+        for ends in margins.windows(2) {
+            let ratio = ends[0].1.max(ends[1].1);
+            let Some((from, to)) = self.at(ends[0].0).zip(self.at(ends[1].0)) else { continue };
+            let colour = if ratio > 1.0 { tokens.critical } else { theme::on_map(ratio) };
+            painter.line_segment([from, to], Stroke::new(LINE, colour));
+        }
         for [from, to] in self.marks() {
             painter.line_segment([from, to], Stroke::new(1.25, tokens.text));
         }

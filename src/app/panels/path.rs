@@ -78,6 +78,12 @@ pub(super) fn ui(ui: &mut Ui, sheet: &mut EditedScenario<'_>, facts: Facts<'_>, 
         if more.inner.explained(meaning).clicked() {
             sheet.edited = paths::with_another(&sheet.edited);
         }
+        let fastest =
+            IconButton::new(Icon::None, "Fastest allowed").text("Fastest allowed").framed().height(height).show(ui);
+        let meaning = "The shortest time on this path within the limits of the robot, its winches and its waves";
+        if fastest.explained(meaning).clicked() {
+            commands.push(Command::ShowFastest);
+        }
         let remove = IconButton::new(Icon::Close, "Remove the path").text("Remove the path").framed().height(height);
         if remove.show(ui).clicked() {
             sheet.edited.path = None;

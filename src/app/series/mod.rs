@@ -18,7 +18,7 @@ use crate::study::convergence::{self, Convergence};
 use crate::study::{Answer, Study, Verdict, compass, evenly};
 pub use flight::{envelope, kept_within, nearest_sample, tensions, wobble};
 pub use gains::{GainPoint, Gains, effect, fastest, of_the_move};
-pub use path::{Stations, Way, station};
+pub use path::{Stations, Way, margins, station};
 pub use what_if::Against;
 
 use segments::{Sample, segments};

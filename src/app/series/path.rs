@@ -181,6 +181,20 @@ pub fn station(facts: Facts<'_>, s: f64) -> Option<&Station> {
     stations.min_by(|a, b| (a.s - s).abs().total_cmp(&(b.s - s).abs()))
 }
 
+/// The speed of the present move over the wave limit, as arc length (m) and ratio, at the stations that are known.
+pub fn margins(facts: Facts<'_>) -> Vec<(f64, f64)> {
+    let shown = facts.studies.shown(Topic::Path).filter(|shown| shown.current);
+    let (Some(shown), Some(trajectory)) = (shown, facts.document.scenario.trajectory()) else { return Vec::new() };
+    let Some(stations) = Stations::new(shown.known) else { return Vec::new() };
+    // At times rather than at the stations: the speed at a place would have to be searched for, in every frame.
+    let duration = trajectory.duration();
+    let ratio = |i: usize| {
+        let moment = trajectory.at(duration * i as f64 / FLOWN as f64, if i == 0 { Side::Right } else { Side::Left });
+        Some((moment.s, moment.v / stations.nearest(moment.s)?.wave_limit?.speed))
+    };
+    (0..=FLOWN).filter_map(ratio).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -193,7 +207,8 @@ mod tests {
 
     #[test]
     fn a_path_along_an_axis_is_measured_by_it_and_any_other_by_its_length() {
-        let cases: [(&[[f64; 2]], Abscissa, [f64; 2]); 5] = [
+        type Case = (&'static [[f64; 2]], Abscissa, [f64; 2]);
+        let cases: [Case; 5] = [
             (&[[-6.0, 1.0], [6.0, 1.0]], Abscissa::X, [-6.0, 6.0]),
             (&[[6.0, 1.0], [2.0, 1.0], [-6.0, 1.0]], Abscissa::X, [-6.0, 6.0]),
             (&[[2.0, 3.0], [2.0, -1.0]], Abscissa::Y, [-1.0, 3.0]),
