@@ -14,10 +14,10 @@ use tautline::compute::protocol::{
     Batch, Incoming, Job, ModeChoice, Outgoing, Reply, Request, StudyJob, Task, Update, Which,
 };
 use tautline::compute::{Engine, PoolWorker};
-use tautline::robot::{Faults, Linearisation, OwnMaterial, Strain};
+use tautline::robot::{Faults, Linearisation, OwnMaterial, Side, Strain};
 use tautline::scenario::link::{self, LinkError};
 use tautline::scenario::report::StatusReport;
-use tautline::scenario::{Report, Scenario, presets};
+use tautline::scenario::{Corners, Path as ScenarioPath, ProfileKind, Report, Scenario, presets};
 use tautline::study::{Directions, Grid, Line, Mapped, Reach, Study, Varied, WhatIf};
 
 /// A target: tries bytes and gives whether they were accepted.
@@ -64,11 +64,11 @@ pub fn link(bytes: &[u8]) -> bool {
         Err(LinkError::NotPhysical(faults)) => told(&faults),
         Err(LinkError::Damaged) => false,
         Err(LinkError::Newer) => {
-            assert!(text.contains(|c| ('3'..='9').contains(&c)), "{text}");
+            assert!(text.contains(|c| ('4'..='9').contains(&c)), "{text}");
             false
         }
     };
-    let sealed = [read(&sealed(FIRST, bytes)), read(&sealed(SECOND, bytes))].contains(&true);
+    let sealed = VERSIONS.map(|version| read(&sealed(version, bytes))).contains(&true);
     std::str::from_utf8(bytes).is_ok_and(read) || sealed
 }
 
@@ -227,6 +227,18 @@ pub fn seeds() -> Vec<(&'static str, String, Vec<u8>)> {
         (odd.motion.position, odd.motion.direction) = ([-0.0, f64::MIN_POSITIVE], [1e200, -1.0 / 3.0]);
         add("scenario", "-odd", odd.to_json().into_bytes());
         add("link", "-odd", fields(&odd));
+        // A path, with every form of a corner and a profile once among the robots.
+        let kinds = [ProfileKind::Quintic, ProfileKind::Trapezoid, ProfileKind::Scurve, ProfileKind::Constant];
+        let [x, y] = scenario.motion.position;
+        let path = ScenarioPath {
+            corners: if i % 2 == 0 { Corners::Smooth } else { Corners::Stop },
+            profile: kinds[i % kinds.len()],
+            acceleration: 1.0 / 3.0,
+            ..ScenarioPath::new(vec![[x + 1.0, y], [x + 1.5, y - 0.75]], 2.5)
+        };
+        let moving = Scenario { path: Some(path), ..scenario.clone() };
+        add("scenario", "-path", moving.to_json().into_bytes());
+        add("link", "-path", fields(&moving));
         // Computed as well: of another material, but as small as the others.
         odd.elements_per_cable = 3;
         odd.motion = scenario.motion;
@@ -279,6 +291,13 @@ fn survives(scenario: &Scenario) -> bool {
         finite(&(robot.axial_stiffness(cable), robot.weight_per_length(cable)));
     }
     assert!((motion.direction().norm() - 1.0).abs() < 1e-15, "{motion:?}");
+    assert_eq!(scenario.trajectory().is_some(), scenario.path.is_some());
+    if let Some(trajectory) = scenario.trajectory() {
+        for part in [0.0, 0.3, 1.0] {
+            let moment = trajectory.at(part * trajectory.duration(), Side::Right);
+            finite(&(&moment, moment.velocity(), moment.acceleration()));
+        }
+    }
     let json = scenario.to_json();
     for again in [Scenario::from_json(&json).unwrap(), link::decode(&link::encode(scenario)).unwrap()] {
         assert_eq!(&again, scenario);
@@ -320,9 +339,8 @@ fn is_finite(text: &str) -> bool {
     text.split(|c: char| !c.is_alphanumeric()).all(|word| !["NaN", "inf", "infinity"].contains(&word))
 }
 
-/// The mark of a link's version; in the second cables may have a material of their own.
-const FIRST: &str = "1";
-const SECOND: &str = "2";
+/// The marks of a link's versions; in the second cables may have a material of their own, in the third there is a path.
+const VERSIONS: [&str; 3] = ["1", "2", "3"];
 
 /// A link of this version with these fields.
 fn sealed(version: &str, fields: &[u8]) -> String {
@@ -337,10 +355,10 @@ fn fields(scenario: &Scenario) -> Vec<u8> {
     bytes
 }
 
-/// The scenario with these fields of a link of either version, if it is one and computed quickly.
+/// The scenario with these fields of a link of any version, if it is one and computed quickly.
 fn small(fields: &[u8]) -> Option<Scenario> {
-    let read = |version| link::decode(&sealed(version, fields)).ok();
-    read(FIRST).or_else(|| read(SECOND)).filter(is_small)
+    let read = |version: &&str| link::decode(&sealed(version, fields)).ok();
+    VERSIONS.iter().find_map(read).filter(is_small)
 }
 
 fn is_small(scenario: &Scenario) -> bool {
@@ -383,7 +401,16 @@ fn bound(study: &mut Study) {
             bound_speed(target);
             bound_speed(limit);
         }
-        Study::Campbell { .. } => {}
+        Study::Path { limit, .. } => bound_speed(limit),
+        Study::Gains { speeds } => speeds.truncate(MOST_PLACES),
+        Study::Flight { options } => {
+            options.samples = options.samples.min(MOST_PLACES);
+            if options.accuracy > 0.0 {
+                options.accuracy = options.accuracy.max(1e-3);
+            }
+        }
+        Study::Allowed(allowed) => allowed.frozen.truncate(MOST_PLACES),
+        Study::Campbell { .. } | Study::Move => {}
     }
 }
 

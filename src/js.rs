@@ -12,7 +12,7 @@ use crate::scenario::limits_report::LimitsReport;
 use crate::scenario::options::{self, MapOptions, max_speed};
 use crate::scenario::report::{CriticalReport, KindReport, StatusReport, WaveLimitReport};
 use crate::scenario::{Report, Scenario};
-use crate::steps::Steps;
+use crate::stability::steps::Steps;
 use crate::study::{Answer, Directions, Grid, Mapped, Study, Verdict};
 
 type Text = Result<String, JsError>;

@@ -67,7 +67,7 @@ pub fn finish_watched<T>(work: impl Future<Output = T>, mut watch: impl FnMut())
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::steps::*;
 
     async fn sum(numbers: Vec<u32>) -> u32 {
         let mut sum = 0;

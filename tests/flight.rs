@@ -59,8 +59,8 @@ fn flights_are_those_of_independent_integrators() {
         let (robot, trajectory, options) = flight_of(&case);
         let flight = fly(&robot, &trajectory, &options).expect("a flight");
         let (metres, newtons) = if name.starts_with("06") { (5e-6, 0.1) } else { (1e-6, 1e-2) };
-        close(flight.duration, number(&case["summary"]["duration_of_move"]), 1e-12, &name);
-        close(flight.end, number(&case["summary"]["end"]), 1e-12, &name);
+        close(flight.duration, number(&case["summary"]["duration_of_move"]), 1e-12, name);
+        close(flight.end, number(&case["summary"]["end"]), 1e-12, name);
         assert_eq!((flight.lost, flight.slack), (None, None), "{name}");
         let expected = case["samples"].as_array().expect("samples");
         assert_eq!(flight.samples.len(), expected.len(), "{name}");
@@ -96,7 +96,7 @@ fn flights_are_those_of_independent_integrators() {
         match flight.residual {
             None => assert!(case["summary"]["residual_max_m"].is_null(), "{name}"),
             // The file has 7 digits.
-            Some(residual) => close(residual, number(&case["summary"]["residual_max_m"]), metres, &name),
+            Some(residual) => close(residual, number(&case["summary"]["residual_max_m"]), metres, name),
         }
     }
 }

@@ -68,8 +68,8 @@ fn wait_for_flight(app: &mut App) {
 
 /// The moment on show and the end, in s.
 fn times(app: &App) -> [f64; 2] {
-    let texts = app.query_all_by_label_contains(" / ").map(|node| interface::text_of(&node));
-    let text = texts.filter(|text| text.ends_with(" s")).last().expect("the moment");
+    let mut texts = app.query_all_by_label_contains(" / ").map(|node| interface::text_of(&node));
+    let text = texts.rfind(|text| text.ends_with(" s")).expect("the moment");
     let text = text.trim_end_matches(" s");
     let (now, end) = text.split_once(" / ").expect("two times");
     [now.parse().expect("a number"), end.parse().expect("a number")]

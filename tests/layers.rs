@@ -170,7 +170,14 @@ fn rooms_use_only_those_before_them() {
 
 /// What the interface may name of the numerics: plain data, where things are, and sums over a handful of values. All else
 /// would compute on the thread that draws; it belongs to the engine or to the pool.
-const NAMED_BY_THE_APP: [&str; 36] = [
+const NAMED_BY_THE_APP: [&str; 43] = [
+    "flight::FastestMove",
+    "flight::LimitOptions",
+    "mechanics::WaveLimit",
+    "study::Allowed",
+    "study::Fastest",
+    "study::MoveEffect",
+    "study::Station",
     "flight::FlightOptions",
     "flight::Sample",
     "flight::CableSample",

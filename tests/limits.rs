@@ -105,7 +105,7 @@ fn limits_are_kept_and_nothing_faster_keeps_them() {
             slack: Some(0.9),
             ..NONE
         };
-        let b = squares(&flight::limits(&[places.clone()], &options).expect("a move"));
+        let b = squares(&flight::limits(std::slice::from_ref(&places), &options).expect("a move"));
         let most = used(&places, &options, &b);
         assert!(most <= 1.0 + 1e-9, "case {case}: {most}");
         for from in 1..60 {
@@ -159,7 +159,9 @@ fn what_has_no_fastest_move_is_refused_with_the_place() {
     // One leg after the other: at rest between them.
     let first = flight::limits(&[places.clone()], &options).expect("a move");
     let mut second = places.clone();
-    second.iter_mut().for_each(|place| place.s += 6.0);
+    for place in &mut second {
+        place.s += 6.0;
+    }
     let both = flight::limits(&[places.clone(), second], &options).expect("a move");
     assert!((both.duration() - 2.0 * first.duration()).abs() < 1e-12 && both.rows.len() == 81);
     assert!(both.rows[40].v.abs() < 1e-12 && (both.rows[40].s - 6.0).abs() < 1e-12);

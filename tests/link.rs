@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use tautline::robot::{Damping, Faults, Linearisation, OwnMaterial, Strain, TensionLaw};
 use tautline::scenario::json::{Cable, Material, Motion, Platform};
 use tautline::scenario::link::{self, LinkError};
-use tautline::scenario::{Scenario, presets};
+use tautline::scenario::{Corners, Path, ProfileKind, Scenario, presets};
 
 /// The signs of base64url in the order of their values.
 const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
@@ -25,6 +25,11 @@ fn around(fields: &[u8]) -> String {
 /// The same of the second version, in which cables may have a material of their own.
 fn around_second(fields: &[u8]) -> String {
     of_version("2", fields)
+}
+
+/// The same of the third version, in which there is a path.
+fn around_third(fields: &[u8]) -> String {
+    of_version("3", fields)
 }
 
 fn of_version(mark: &str, fields: &[u8]) -> String {
@@ -112,6 +117,77 @@ fn own_materials_are_in_the_second_version() {
     assert_eq!((faults.list()[0].path.as_str(), faults.list().len()), ("cables[2].cable.area", 1));
 }
 
+/// The cables of [`CABLES`], each without anything of its own, as they are from the second version on.
+fn without_own() -> Vec<u8> {
+    CABLES.iter().flat_map(|cable| [cable, &[0_u8][..]].concat()).collect()
+}
+
+/// The paper's robot in the third version with these bytes of a path.
+fn with_path(path: &[u8]) -> String {
+    around_third(&[&with_cables(&[4], &[&without_own()]), path].concat())
+}
+
+/// The path stands behind everything else.
+#[test]
+fn paths_are_in_the_third_version() {
+    // 6 and 0; a speed of 5, an acceleration of 1, a jerk of 10, which is 1 with k = 6, a hold of 2.
+    let straight = Path { hold: 2.0, ..Path::new(vec![[6.0, 0.0]], 5.0) };
+    let smooth = Path {
+        corners: Corners::Smooth,
+        profile: ProfileKind::Scurve,
+        acceleration: 3.0,
+        jerk: 8.0,
+        ..Path::new(vec![[6.0, 0.1], [-1.5, -2.0]], 4.0)
+    };
+    let trapezoid = Path { profile: ProfileKind::Trapezoid, ..straight.clone() };
+    let constant = Path { profile: ProfileKind::Constant, hold: 0.0, ..straight.clone() };
+    for (path, bytes) in [
+        (straight.clone(), &[0, 1, 0x65, 0x05, 0x55, 0x15, 0x16, 0x25][..]),
+        (trapezoid, &[1, 1, 0x65, 0x05, 0x55, 0x15, 0x16, 0x25]),
+        (constant, &[3, 1, 0x65, 0x05, 0x55, 0x15, 0x16, 0x05]),
+        // −1.5 and 8 take two bytes.
+        (smooth, &[2 + 4, 2, 0x65, 0x14, 0xec, 0x01, 0x1d, 0x45, 0x35, 0x85, 0x01, 0x05]),
+    ] {
+        let scenario = Scenario { path: Some(path), ..paper() };
+        let by_hand = with_path(bytes);
+        assert_eq!(link::encode(&scenario), by_hand);
+        assert_eq!(link::decode(&by_hand), Ok(scenario));
+        // An older mark on it is damage.
+        for mark in ['1', '2'] {
+            assert_eq!(link::decode(&format!("{mark}{}", &by_hand[1..])), Err(LinkError::Damaged));
+        }
+    }
+    // Cables may have something of their own beside it, and without a path the older versions are written.
+    let mut both = Scenario { path: Some(straight), ..paper() };
+    both.cables[0].cable.youngs_modulus = Some(2e8);
+    let own = [CABLES[0], &[1, 0x27, 8], &without_own()[CABLES[0].len() + 1..]].concat();
+    let path = [0, 1, 0x65, 0x05, 0x55, 0x15, 0x16, 0x25];
+    assert_eq!(link::encode(&both), around_third(&[&with_cables(&[4], &[&own]), &path[..]].concat()));
+    both.path = None;
+    assert_eq!((link::encode(&both).chars().next(), link::encode(&paper()).chars().next()), (Some('2'), Some('1')));
+    // No path, an unknown profile or flag, too few points, one that is not there, a byte too many.
+    for wrong in [
+        &[][..],
+        &[8, 1, 0x65, 0x05, 0x55, 0x15, 0x16, 0x25],
+        &[0xff, 1, 0x65, 0x05, 0x55, 0x15, 0x16, 0x25],
+        &[0, 2, 0x65, 0x05, 0x55, 0x15, 0x16, 0x25],
+        &[0, 1, 0x65, 0x05, 0x55, 0x15, 0x16],
+        &[0, 1, 0x65, 0x05, 0x55, 0x15, 0x16, 0x25, 0],
+    ] {
+        assert_eq!(link::decode(&with_path(wrong)), Err(LinkError::Damaged), "{wrong:02x?}");
+    }
+    // What cannot be has the path that it has in a file.
+    for (bytes, field) in [
+        (&[0, 0, 0x55, 0x15, 0x16, 0x25][..], "path.points"),
+        (&[0, 1, 0x05, 0x05, 0x55, 0x15, 0x16, 0x25], "path.points[0]"),
+        (&[0, 1, 0x65, 0x05, 0x05, 0x15, 0x16, 0x25], "path.speed"),
+        (&[3, 1, 0x65, 0x05, 0x55, 0x15, 0x16, 0x25], "path.hold"),
+    ] {
+        let faults = not_physical(&with_path(bytes));
+        assert_eq!((faults.list()[0].path.as_str(), faults.list().len()), (field, 1), "{faults}");
+    }
+}
+
 /// Scenarios and their links as they were when the format was made: fixtures, never to be renewed.
 #[test]
 fn links_made_long_ago_stay_readable() {
@@ -130,7 +206,7 @@ fn links_made_long_ago_stay_readable() {
             read += 1;
         }
     }
-    assert_eq!(read, 8);
+    assert_eq!(read, 10);
 }
 
 #[test]
@@ -154,10 +230,11 @@ fn every_damage_is_told() {
     assert!(message.starts_with("This link is damaged: ") && message.lines().count() == 1, "{message}");
     let mut own = paper();
     own.cables[1].cable.area = Some(3e-5);
-    for scenario in presets::PRESETS.iter().map(presets::Preset::scenario).chain([own]) {
+    let path = Scenario { path: Some(Path::new(vec![[6.0, 0.0], [6.0, 1.5]], 4.0)), ..paper() };
+    for scenario in presets::PRESETS.iter().map(presets::Preset::scenario).chain([own, path]) {
         let link = link::encode(&scenario);
         let refused = |damaged: &str| {
-            let newer = damaged.starts_with(|c| ('3'..='9').contains(&c));
+            let newer = damaged.starts_with(|c| ('4'..='9').contains(&c));
             let expected = if newer { LinkError::Newer } else { LinkError::Damaged };
             assert_eq!(link::decode(damaged), Err(expected), "{damaged}");
         };
@@ -222,7 +299,7 @@ fn what_a_link_says_of_the_view_is_no_part_of_the_robot() {
 fn links_of_later_formats_are_told() {
     assert!(LinkError::Newer.to_string().contains("newer version of Tautline"));
     let link = link::encode(&paper());
-    for mark in '3'..='9' {
+    for mark in '4'..='9' {
         assert_eq!(link::decode(&format!("{mark}{}", &link[1..])), Err(LinkError::Newer));
         assert_eq!(link::decode(&mark.to_string()), Err(LinkError::Newer));
     }
@@ -348,14 +425,30 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
         },
     );
     let material = (prop::array::uniform3(any_finite().prop_map(f64::abs)), any::<bool>());
+    let path = {
+        let coordinate = prop_oneof![5 => -1e3_f64..1e3, 1 => any_finite()];
+        let points = prop::collection::vec(prop::array::uniform2(coordinate), 1..4);
+        let duration = (1e-3_f64..1e3, not_negative(), 0..4_u8, any::<bool>());
+        (points, duration).prop_map(|(points, (speed, other, profile, smooth))| Path {
+            points,
+            corners: if smooth { Corners::Smooth } else { Corners::Stop },
+            profile: [ProfileKind::Quintic, ProfileKind::Trapezoid, ProfileKind::Scurve, ProfileKind::Constant]
+                [usize::from(profile)],
+            speed,
+            acceleration: other.max(f64::from_bits(1)),
+            jerk: 0.1 / speed,
+            hold: if profile == 3 { -0.0 } else { 1.0 / 3.0 },
+        })
+    };
     let name =
         prop_oneof![Just(None), any::<String>().prop_map(Some), Just(Some("Seil\u{ad}roboter 绳索 🪢\0".to_owned()))];
     let motion = (prop::array::uniform2(any_finite()), prop::array::uniform2(any_finite()), not_negative());
     let rest = (not_negative(), any_finite(), prop::array::uniform2(not_negative()), 2..=200_usize, any::<bool>());
+    let motion = (motion, prop::option::of(path));
     (name, material, cables, motion, rest).prop_filter_map("not physical", |(name, material, cables, motion, rest)| {
         let ([youngs_modulus, area, mass_per_length], engineering) = material;
         let (gravity, mass, [alpha, beta], elements_per_cable, tangent) = rest;
-        let (position, direction, speed) = motion;
+        let ((position, direction, speed), path) = motion;
         let scenario = Scenario {
             name,
             gravity,
@@ -370,8 +463,15 @@ fn any_scenario() -> impl Strategy<Value = Scenario> {
             elements_per_cable,
             damping: Damping { alpha, beta },
             linearisation: if tangent { Linearisation::Tangent } else { Linearisation::Secant },
-            motion: Motion { position, direction, speed },
+            motion: Motion {
+                position: if path.is_some() { position.map(f64::sin) } else { position },
+                direction,
+                speed,
+            },
+            path,
         };
+        // A path from anywhere mostly takes too long; without one the robot is there as well.
+        let scenario = if scenario.to_robot().is_ok() { scenario } else { Scenario { path: None, ..scenario } };
         scenario.to_robot().is_ok().then_some(scenario)
     })
 }
@@ -393,7 +493,7 @@ proptest! {
             prop_assert!(matches!(link::decode(&garbage), Err(LinkError::Damaged | LinkError::Newer)), "{}", garbage);
         }
         // With a right checksum too, any bytes are told or survive.
-        for link in [around(&bytes), around_second(&bytes)] {
+        for link in [around(&bytes), around_second(&bytes), around_third(&bytes)] {
             if let Ok(scenario) = link::decode(&link) {
                 prop_assert_eq!(link::decode(&link::encode(&scenario)), Ok(scenario));
             }
@@ -405,7 +505,10 @@ proptest! {
         let own: [&[u8]; 4] = [&[1, 0x27, 8], &[0], &[22, 0x30, 0x24], &[8]];
         let second: Vec<Vec<u8>> = CABLES.iter().zip(own).map(|(cable, own)| [cable, own].concat()).collect();
         let second: Vec<&[u8]> = second.iter().map(Vec::as_slice).collect();
-        for (mark, mut bytes) in [("1", with_cables(&[4], &CABLES)), ("2", with_cables(&[4], &second))] {
+        let path = [&with_cables(&[4], &second)[..], &[6, 2, 0x65, 0x14, 0xec, 0x01, 0x1d, 0x45, 0x35, 0x85, 0x01, 0x05]];
+        for (mark, mut bytes) in
+            [("1", with_cables(&[4], &CABLES)), ("2", with_cables(&[4], &second)), ("3", path.concat())]
+        {
             let at = at.index(bytes.len());
             bytes[at] = byte;
             match link::decode(&of_version(mark, &bytes)) {

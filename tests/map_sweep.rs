@@ -9,7 +9,7 @@ use std::process::{Command, Stdio};
 use common::shell::{Done, File, refuse, succeed, tautline};
 use serde_json::{Value, json};
 use tautline::robot::{OwnMaterial, TensionLaw};
-use tautline::scenario::{Scenario, presets};
+use tautline::scenario::{Path, Scenario, presets};
 
 const COLUMNS: &str = "x,y,feasible,critical_speed,frequency_hz,kind,cable,wave_limit,status";
 
@@ -254,6 +254,39 @@ fn what_a_cable_has_of_its_own_can_be_swept_where_it_has_it() {
         lines.len() == 1 && lines[0].contains("cables[1].cable.youngs_modulus: 1e+200 is not allowed"),
         "{lines:?}"
     );
+}
+
+/// A path changes no critical speed. It must not forbid a position either, such as that of its own end.
+#[test]
+fn a_path_in_the_file_is_swept_by_its_numbers_and_disturbs_no_other() {
+    let mut moving = small();
+    let [x, y] = moving.motion.position;
+    moving.path = Some(Path::new(vec![[x + 1.0, y]], 2.0));
+    let set = format!("motion.position[0]={x}:{}:2", x + 1.0);
+    let sweep = |scenario: &Scenario, set: &str| {
+        table(&succeed(&["sweep", "-", "--csv", "--max-speed", "4", "--set", set], &scenario.to_json())).1
+    };
+    let rows = sweep(&moving, &set);
+    assert_eq!(rows.len(), 2);
+    assert_eq!(rows, sweep(&Scenario { path: None, ..moving.clone() }, &set));
+    // Its own numbers are numbers as others are: there with the path, not there without.
+    let of_path = sweep(&moving, "path.points[0][1]=0.5:1:2");
+    assert_eq!(of_path.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(), ["0.5", "1"]);
+    assert_eq!(of_path[0][1..], of_path[1][1..]);
+    assert_eq!(of_path[0][1..], rows[0][1..]);
+    let told = |scenario: &Scenario, sets: &[&str]| {
+        let sets = sets.iter().flat_map(|set| ["--set", set]);
+        let all: Vec<&str> = ["sweep", "-", "--csv", "--shard", "1/4"].into_iter().chain(sets).collect();
+        refuse(&all, &scenario.to_json())
+    };
+    let without = Scenario { path: None, ..moving.clone() };
+    assert!(told(&without, &["path.speed=1:2:2"])[0].contains("path.speed: no such number"));
+    assert!(told(&moving, &["path.hold=1:-1:2"])[0].contains("path.hold: -1"));
+    assert!(told(&moving, &["path.profile=1:2:2"])[0].contains("only a number can be swept, not \"quintic\""));
+    // The end meets the beginning in the last row alone, which is not the first part's.
+    let end = format!("path.points[0][0]={}:{}:2", x + 2.0, x + 1.0);
+    let lines = told(&moving, &[&set, &end]);
+    assert!(lines.len() == 1 && lines[0].contains("another point than motion.position"), "{lines:?}");
 }
 
 #[test]

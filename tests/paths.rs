@@ -1,5 +1,5 @@
 //! The path on the screen: added, dragged, typed, taken back, told in links.
-
+#![expect(clippy::float_cmp, reason = "coordinates that are rounded, typed or copied")]
 #![cfg(feature = "app")]
 
 use eframe::egui::accesskit::Role;
@@ -63,7 +63,7 @@ fn a_path_is_added_removed_taken_back_and_told_in_a_link() {
     let mut app = app();
     press(&mut app, "Path");
     press(&mut app, "Add a path");
-    assert_eq!(path(&app), Path::new(vec![[6.0, 0.0]], 5.0));
+    assert_eq!(path(&app), Path { hold: 2.0, ..Path::new(vec![[6.0, 0.0]], 5.0) });
     // 6 m as a quintic with a peak of 5 m/s: 15 · 6/(8 · 5) s.
     app.get_by_label("2.25 s");
     // A path is no change of the robot.

@@ -7,7 +7,7 @@ use std::fs;
 use proptest::prelude::*;
 use tautline::robot::{self, Fault, Linearisation, Motion, OwnMaterial, Strain, TensionLaw};
 use tautline::scenario::json::{Material, SCHEMA, SCHEMA_2};
-use tautline::scenario::{Parameter, Scenario, presets};
+use tautline::scenario::{Corners, Parameter, Path, ProfileKind, Scenario, presets};
 
 /// A scenario with every kind of field, as the format's description has it.
 const SAMPLE: &str = r#"{ "schema": "tautline/scenario/1",
@@ -395,6 +395,90 @@ fn own_values_are_parameters_where_they_are() {
     assert!(at("cables[3].cable.mass_per_length") < at("elements_per_cable"));
 }
 
+/// The sample with `path`, in a file of this schema (with the comma behind it) or of none.
+fn with_path(schema: &str, path: &str) -> String {
+    with(r#""schema": "tautline/scenario/1","#, schema)
+        .replace(r#""speed": 5.0 } }"#, &format!(r#""speed": 5.0 }}, "path": {path} }}"#))
+}
+
+/// A path with every field, none of which has its default.
+const PATH: &str = r#"{ "points": [[6, 0.5], [1, 2]], "corners": "smooth", "profile": "scurve", "speed": 2.5, "acceleration": 3, "jerk": 8, "hold": 1.5 }"#;
+
+#[test]
+fn a_path_is_read_and_laid_out_for_people() {
+    let expected = Path {
+        points: vec![[6.0, 0.5], [1.0, 2.0]],
+        corners: Corners::Smooth,
+        profile: ProfileKind::Scurve,
+        speed: 2.5,
+        acceleration: 3.0,
+        jerk: 8.0,
+        hold: 1.5,
+    };
+    for schema in [SECOND, ""] {
+        let scenario = accepted(&with_path(schema, PATH));
+        assert_eq!(scenario.path, Some(expected.clone()));
+        assert_eq!(scenario, Scenario { path: scenario.path.clone(), ..accepted(SAMPLE) });
+        let text = scenario.to_json();
+        assert!(text.starts_with("{\n  \"schema\": \"tautline/scenario/2\",\n"), "{text}");
+        let line = r#"  "path": { "points": [[6.0, 0.5], [1.0, 2.0]], "corners": "smooth", "profile": "scurve", "speed": 2.5, "acceleration": 3.0, "jerk": 8.0, "hold": 1.5 }"#;
+        assert!(text.ends_with(&format!("\n{line}\n}}")), "{text}");
+        assert_eq!(accepted(&text), scenario);
+        // Back to no path, and to the first version.
+        assert_eq!(Scenario { path: None, ..scenario }.to_json(), accepted(SAMPLE).to_json());
+    }
+    // The rest has its default; the speed is that of the motion.
+    for (word, profile) in [
+        ("quintic", ProfileKind::Quintic),
+        ("trapezoid", ProfileKind::Trapezoid),
+        ("scurve", ProfileKind::Scurve),
+        ("constant", ProfileKind::Constant),
+    ] {
+        let path = format!(r#"{{ "points": [[6, 0]], "profile": "{word}" }}"#);
+        let path = accepted(&with_path(SECOND, &path)).path;
+        assert_eq!(path, Some(Path { profile, ..Path::new(vec![[6.0, 0.0]], 5.0) }));
+    }
+}
+
+#[test]
+fn faults_of_a_path_name_its_path() {
+    let fields = "an object with the fields points, corners, profile, speed, acceleration, jerk, hold";
+    for (path, place, value, allowed) in [
+        ("null", "path", "null", fields),
+        ("[[6, 0]]", "path", "[[6, 0]]", fields),
+        ("{}", "path.points", "missing", "a list of 1 to 100 points [x, y]"),
+        (r#"{ "points": [[6, 0], 1] }"#, "path.points[1]", "1", "a list of 2 numbers"),
+        (r#"{ "points": [[6, 0], [1, "0"]] }"#, "path.points[1][1]", r#""0""#, "a finite number"),
+        (r#"{ "points": [[6, 1e999]] }"#, "path.points[0][1]", "1e999", "a finite number"),
+        (r#"{ "points": [[6, 0]], "corners": "round" }"#, "path.corners", r#""round""#, r#""stop" or "smooth""#),
+        (r#"{ "points": [[6, 0]], "profile": "sine" }"#, "path.profile", r#""sine""#, r#""quintic", "trapezoid""#),
+        (r#"{ "points": [[6, 0]], "velocity": 3 }"#, "path.velocity", "an unknown field (3)", "the fields points"),
+        (r#"{ "points": [[6, 0]], "acceleration": 0.0 }"#, "path.acceleration", "0.0", "greater than 0"),
+        (r#"{ "points": [[6, 0]], "jerk": -1 }"#, "path.jerk", "-1", "greater than 0"),
+        (r#"{ "points": [[6, 0]], "hold": null }"#, "path.hold", "null", "a finite number"),
+        (r#"{ "points": [[6, 0]], "hold": -0.5 }"#, "path.hold", "-0.5", "0 or more"),
+        (r#"{ "points": [[6, 0]], "profile": "constant", "hold": 2 }"#, "path.hold", "2", "does not come to rest"),
+    ] {
+        assert_fault(&with_path(SECOND, path), place, value, allowed);
+    }
+    // A motion at rest gives a path no speed.
+    let resting = with_path(SECOND, r#"{ "points": [[6, 0]] }"#).replace(r#""speed": 5.0"#, r#""speed": 0"#);
+    assert_fault(&resting, "path.speed", "0.0", "greater than 0");
+    // The robot's faults are told with the path's.
+    let both = with_path(SECOND, r#"{ "points": [[6, 0]], "jerk": 0 }"#).replace("2.0", "-2.0");
+    let told: Vec<String> = faults(&both).into_iter().map(|fault| fault.path).collect();
+    assert_eq!(told, ["platform.mass", "path.jerk"]);
+    let first = faults(&with_path(r#""schema": "tautline/scenario/1","#, PATH));
+    assert!(
+        first.len() == 1 && first[0].path == "path" && first[0].to_string().contains("say \"tautline/scenario/2\"")
+    );
+    // As many points as are allowed, and one more.
+    let zigzag = |count: usize| (0..count).map(|i| format!("[{}, {}]", i + 1, i % 2)).collect::<Vec<_>>().join(", ");
+    let of = |count: usize| format!(r#"{{ "points": [{}] }}"#, zigzag(count));
+    assert_eq!(accepted(&with_path(SECOND, &of(100))).trajectory().map(|all| all.corners().len()), Some(99));
+    assert_fault(&with_path(SECOND, &of(101)), "path.points", "a list of 101", "1 to 100 points");
+}
+
 #[test]
 fn a_robot_makes_the_scenario_that_makes_the_robot() {
     let robot = robot::paper().unwrap();
@@ -485,11 +569,11 @@ fn any_json() -> impl Strategy<Value = String> {
     })
 }
 
-/// The sample's values: where each begins and ends.
-fn values() -> Vec<std::ops::Range<usize>> {
+/// A sample's values: where each begins and ends.
+fn values(sample: &str) -> Vec<std::ops::Range<usize>> {
     let mut values = Vec::new();
-    for (start, _) in SAMPLE.char_indices() {
-        let mut stream = serde_json::Deserializer::from_str(&SAMPLE[start..]).into_iter::<serde_json::Value>();
+    for (start, _) in sample.char_indices() {
+        let mut stream = serde_json::Deserializer::from_str(&sample[start..]).into_iter::<serde_json::Value>();
         if stream.next().is_some_and(|value| value.is_ok()) {
             values.push(start..start + stream.byte_offset());
         }
@@ -521,9 +605,11 @@ proptest! {
 
     #[test]
     fn replaced_values_are_told_or_survive(which in any::<prop::sample::Index>(), new in any_json()) {
-        let values = values();
-        let range = which.get(&values).clone();
-        assert_survives(&format!("{}{new}{}", &SAMPLE[..range.start], &SAMPLE[range.end..]))?;
+        for sample in [SAMPLE, &with_path(SECOND, PATH)] {
+            let values = values(sample);
+            let range = which.get(&values).clone();
+            assert_survives(&format!("{}{new}{}", &sample[..range.start], &sample[range.end..]))?;
+        }
     }
 
     #[test]
@@ -541,6 +627,7 @@ proptest! {
     fn every_number_is_written_and_read_to_the_last_bit(
         magnitudes in prop::array::uniform8(any_magnitude()),
         numbers in prop::collection::vec(any_finite(), 10),
+        path in (prop::array::uniform4(-1e3_f64..1e3), 1e-2_f64..1e3, 1e-3_f64..1e3, 0.0_f64..1e3, any::<bool>()),
     ) {
         let mut scenario = accepted(SAMPLE);
         let mut next = numbers.into_iter();
@@ -563,6 +650,21 @@ proptest! {
         };
         prop_assume!(scenario.to_robot().is_ok());
         assert_survives(&scenario.to_json())?;
+        let ([ax, ay, bx, by], speed, acceleration, hold, smooth) = path;
+        let path = Path {
+            corners: if smooth { Corners::Smooth } else { Corners::Stop },
+            profile: ProfileKind::Trapezoid,
+            acceleration,
+            jerk: 1.0 / speed,
+            hold,
+            ..Path::new(vec![[ax, ay], [bx, by]], speed)
+        };
+        let mut moving = Scenario { path: Some(path), ..scenario.clone() };
+        moving.motion.position = [0.0, -0.0];
+        prop_assert_eq!(moving.to_robot().is_ok(), moving.trajectory().is_some());
+        if moving.to_robot().is_ok() {
+            prop_assert_eq!(Scenario::from_json(&moving.to_json()), Ok(moving));
+        }
         // The robot's own form keeps them as well; a direction once normalised stays as it is.
         let (robot, motion) = scenario.to_robot().unwrap();
         let direction = motion.direction();

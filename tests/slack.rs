@@ -12,7 +12,7 @@ fn statics(robot: &Robot, at: Vec2) -> Statics {
 struct Loaded<'a> {
     robot: &'a Robot,
     rest: Statics,
-    /// M r' + (∂K_dyn/∂s̈) r, per unit s̈.
+    /// M r' + (∂`K_dyn/∂s`̈) r, per unit s̈.
     inertia: DVector<f64>,
 }
 

@@ -9,7 +9,7 @@ use crate::app::number;
 use crate::app::settings::Settings;
 use crate::robot::{BoundingBox, Linearisation, Strain, TensionLaw, Vec2};
 use crate::scenario::report::CriticalReport;
-use crate::scenario::{Parameter, Scenario};
+use crate::scenario::{Corners, Parameter, Path, ProfileKind, Scenario};
 
 /// Stands where a design has no such number.
 const NONE: &str = "–";
@@ -120,6 +120,8 @@ fn differences(scenarios: &[&Scenario], settings: Settings) -> Vec<Row> {
         texts("Cables".into(), &|scenario| scenario.cables.len().to_string()),
         texts("Strain".into(), &|scenario| strain(scenario.cable.strain).into()),
         texts("Stiffness".into(), &|scenario| stiffness(scenario.linearisation).into()),
+        texts("Path".into(), &|scenario| scenario.path.as_ref().map_or(NONE.into(), shape)),
+        texts("Motion profile".into(), &|scenario| scenario.path.as_ref().map_or(NONE, profile).into()),
     ];
     for i in 0..most {
         rows.push(texts(format!("Tension of cable {}", i + 1), &|scenario| {
@@ -127,8 +129,23 @@ fn differences(scenarios: &[&Scenario], settings: Settings) -> Vec<Row> {
         }));
     }
     rows.retain(|row| row.cells.windows(2).any(|pair| pair[0] != pair[1]));
-    rows.extend(parameters(scenarios).into_iter().filter_map(|parameter| number_row(parameter, scenarios, settings)));
+    let numbers = parameters(scenarios).into_iter().filter(|parameter| counts(*parameter, scenarios));
+    rows.extend(numbers.filter_map(|parameter| number_row(parameter, scenarios, settings)));
     rows
+}
+
+/// Whether a number is worth a row: a profile may not have it, and where one design has a path and another has none, the
+/// row of the path says it all.
+fn counts(parameter: Parameter, scenarios: &[&Scenario]) -> bool {
+    let paths = || scenarios.iter().filter_map(|scenario| scenario.path.as_ref());
+    match parameter {
+        Parameter::PathAcceleration => {
+            paths().any(|path| matches!(path.profile, ProfileKind::Trapezoid | ProfileKind::Scurve))
+        }
+        Parameter::PathJerk => paths().any(|path| path.profile == ProfileKind::Scurve),
+        Parameter::PathPoint(..) => paths().count() > 1,
+        _ => true,
+    }
 }
 
 /// All numbers that one of the designs has. A direction is one number to people.
@@ -178,6 +195,24 @@ fn stiffness(linearisation: Linearisation) -> &'static str {
     match linearisation {
         Linearisation::Secant => "secant",
         Linearisation::Tangent => "tangent",
+    }
+}
+
+/// How many points a path leads to, and how it passes them.
+fn shape(path: &Path) -> String {
+    match (path.points.len(), path.corners) {
+        (1, _) => "straight".into(),
+        (count, Corners::Stop) => format!("{count} points, stops"),
+        (count, Corners::Smooth) => format!("{count} points, smooth"),
+    }
+}
+
+fn profile(path: &Path) -> &'static str {
+    match path.profile {
+        ProfileKind::Quintic => "quintic",
+        ProfileKind::Trapezoid => "trapezoid",
+        ProfileKind::Scurve => "S-curve",
+        ProfileKind::Constant => "constant",
     }
 }
 
@@ -234,6 +269,37 @@ mod tests {
         assert_eq!(cells("Tension of cable 4").as_deref(), Some("law, –"));
         assert_eq!(cells("x of winch 4").as_deref(), Some("10 m, –"));
         assert_eq!(cells("T of cable 3").as_deref(), Some("–, 40 N"));
+    }
+
+    #[test]
+    fn of_paths_only_what_counts_has_a_row() {
+        let mut straight = Scenario { path: Some(Path::new(vec![[6.0, 0.0]], 5.0)), ..paper() };
+        let names = |scenarios: &[&Scenario]| rows(scenarios).into_iter().map(|row| row.0).collect::<Vec<_>>();
+        let cells = |scenarios: &[&Scenario], name: &str| {
+            rows(scenarios).into_iter().find(|row| row.0 == name).map(|row| row.1.join("; "))
+        };
+        // A quintic has neither acceleration nor jerk.
+        let with_and_without = names(&[&paper(), &straight]);
+        assert_eq!(with_and_without[..2], ["Path", "Motion profile"]);
+        assert!(with_and_without.len() == 4, "{with_and_without:?}");
+        assert_eq!(cells(&[&paper(), &straight], "Path").as_deref(), Some("–; straight"));
+        let mut smooth = straight.clone();
+        if let Some(path) = &mut smooth.path {
+            (path.corners, path.profile, path.acceleration) = (Corners::Smooth, ProfileKind::Scurve, 3.0);
+            path.points = vec![[5.0, 0.0], [6.0, 2.0]];
+        }
+        let pair = [&straight, &smooth];
+        assert_eq!(cells(&pair, "Path").as_deref(), Some("straight; 2 points, smooth"));
+        assert_eq!(cells(&pair, "Motion profile").as_deref(), Some("quintic; S-curve"));
+        assert_eq!(cells(&pair, "x of point 1").as_deref(), Some("6 m; 5 m"));
+        assert_eq!(cells(&pair, "y of point 2").as_deref(), Some("–; 2 m"));
+        assert!(names(&pair).iter().any(|name| name.contains("Acceleration")), "{:?}", names(&pair));
+        assert!(!names(&pair).iter().any(|name| name.contains("Jerk")), "it is the same");
+        if let Some(path) = &mut straight.path {
+            (path.acceleration, path.jerk) = (7.0, 70.0);
+        }
+        let quintic = Scenario { path: Some(Path::new(vec![[6.0, 0.0]], 5.0)), ..paper() };
+        assert_eq!(names(&[&straight, &quintic]), Vec::<String>::new(), "numbers that a quintic does not have");
     }
 
     #[test]

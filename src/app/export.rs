@@ -1,6 +1,7 @@
 //! What can be saved: the scenario, the analysis, and the numbers of plots as tables.
 
 mod moves;
+mod table;
 
 use std::f64::consts::TAU;
 
@@ -14,8 +15,11 @@ use crate::app::series::{self, degrees};
 use crate::app::state::Plot;
 use crate::app::studies::StudyResults;
 use crate::compute::protocol::{Extent, Topic};
-use crate::scenario::report::{CriticalReport, StatusReport, parameter};
-use crate::study::{Answer, NoEigenvalues, Status, Study, Verdict, evenly};
+use crate::scenario::report::parameter;
+use crate::study::{Answer, Study, evenly};
+
+pub use table::Table;
+use table::{VERDICT, cell, status, verdict};
 
 /// Something to save.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,61 +38,6 @@ pub enum Content {
     PlotPicture(Plot, Id, Format),
     /// A picture of the canvas.
     CanvasPicture(Format),
-}
-
-/// A table of numbers and words without commas, tabs and quotes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    header: Vec<String>,
-    rows: Vec<Vec<String>>,
-}
-
-impl Table {
-    fn new(header: &[&str]) -> Self {
-        Self { header: header.iter().map(ToString::to_string).collect(), rows: Vec::new() }
-    }
-
-    /// With commas, as RFC 4180 has it.
-    pub fn csv(&self) -> String {
-        self.joined(",", "\r\n")
-    }
-
-    /// With tabs, as spreadsheets take it from the clipboard.
-    pub fn tsv(&self) -> String {
-        self.joined("\t", "\n")
-    }
-
-    fn joined(&self, separator: &str, end: &str) -> String {
-        std::iter::once(&self.header).chain(&self.rows).map(|row| row.join(separator) + end).collect()
-    }
-}
-
-/// The columns of what is known of a pose and direction, as on the command line.
-const VERDICT: [&str; 7] = ["feasible", "critical_speed", "frequency_hz", "kind", "cable", "wave_limit", "status"];
-
-fn verdict(verdict: &Verdict, wave_limit: Option<f64>) -> [String; 7] {
-    let critical = verdict.critical().map(CriticalReport::from);
-    let critical = critical.as_ref();
-    [
-        cell(verdict.feasible()),
-        cell(critical.map(|critical| critical.speed)),
-        cell(critical.map(|critical| critical.frequency_hz)),
-        cell(critical.map(|critical| critical.kind)),
-        cell(critical.map(|critical| critical.cable)),
-        cell(wave_limit),
-        StatusReport::from(verdict.status()).to_string(),
-    ]
-}
-
-/// A value as text; empty where there is none.
-fn cell(value: Option<impl ToString>) -> String {
-    value.map_or_else(String::new, |value| value.to_string())
-}
-
-/// How the search for eigenvalues ended.
-fn status<T>(answer: &Result<T, NoEigenvalues>) -> String {
-    let status = answer.as_ref().map_or_else(|reason| reason.status(), |_| Status::Found);
-    StatusReport::from(status).to_string()
 }
 
 /// The numbers of a plot, where there are any.
@@ -263,7 +212,7 @@ mod tests {
     use crate::robot::Vec2;
     use crate::scenario::presets;
     use crate::stability::{Critical, Instability};
-    use crate::study::{Directions, Grid, Mapped, Varied, WhatIf};
+    use crate::study::{Directions, Grid, Mapped, NoEigenvalues, Varied, Verdict, WhatIf};
     use nalgebra::Complex;
 
     fn table(study: Study, answers: Vec<Answer>) -> String {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::cli::streams::read_scenario;
+use crate::cli::streams::{file_name, read_scenario};
 use crate::robot::{Robot, Trajectory};
 use crate::scenario::{Corners, Path, ProfileKind, Scenario, file, trajectory};
 
@@ -94,7 +94,7 @@ impl CourseArgs {
             scenario.path = Some(Path { points: self.to.clone(), ..path });
         }
         let Some(path) = &mut scenario.path else {
-            let file = self.file.display();
+            let file = file_name(&self.file);
             return Err(vec![format!(
                 "{file}: the scenario has no path; give one with --to X,Y or --trajectory FILE.csv"
             )]);

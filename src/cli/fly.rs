@@ -11,7 +11,7 @@ use crate::flight::FlightOptions;
 use crate::robot::Vec2;
 use crate::scenario::flight_report::FlightReport;
 use crate::scenario::options::MOST_SAMPLES;
-use crate::steps::finish_watched;
+use crate::stability::steps::finish_watched;
 
 /// How many samples there may be.
 const SAMPLES: std::ops::RangeInclusive<i64> = 2..=MOST_SAMPLES as i64;

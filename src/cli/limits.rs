@@ -10,7 +10,7 @@ use crate::cli::text::digits;
 use crate::flight::LimitOptions;
 use crate::scenario::limits_report::LimitsReport;
 use crate::scenario::options::SAFETY;
-use crate::steps::finish_watched;
+use crate::stability::steps::finish_watched;
 
 /// The fastest move along a path from rest to rest, as a table that a controller can read.
 ///

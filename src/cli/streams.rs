@@ -37,10 +37,18 @@ pub(super) fn max_speed(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|&speed| is_limit(speed)).ok_or_else(|| format!("allowed: {ALLOWED_LIMIT}"))
 }
 
+fn is_standard_input(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// What messages call a file.
+pub(super) fn file_name(path: &Path) -> String {
+    if is_standard_input(path) { "standard input".into() } else { path.display().to_string() }
+}
+
 /// The scenario in a file, or in the standard `input` where `path` is `-`; faults with the file's name in front.
 pub(super) fn read_scenario(path: &Path, input: &mut dyn Read) -> Result<Scenario, Vec<String>> {
-    let standard_input = path.as_os_str() == "-";
-    let name = if standard_input { "standard input".into() } else { path.display().to_string() };
+    let (standard_input, name) = (is_standard_input(path), file_name(path));
     let fault = |what: &dyn std::fmt::Display| format!("{name}: {what}");
     let text = if standard_input { file::read(input) } else { file::open(path) };
     let text = text.map_err(|error| vec![fault(&error)])?;

@@ -18,6 +18,8 @@ use crate::study::{Verdict, evenly, verdict};
 
 /// The most rows of a sweep.
 const MOST_ROWS: usize = 10_000_000;
+/// How the numbers of the scenario's path begin.
+const OF_PATH: &str = "path.";
 
 /// Critical speed and frequency for every combination of some of the scenario's numbers.
 ///
@@ -135,7 +137,7 @@ struct Sweep {
 
 impl Sweep {
     fn new(scenario: &Scenario, sets: &[String]) -> Result<Self, Vec<String>> {
-        let file = serde_json::to_value(scenario).map_err(|error| vec![error.to_string()])?;
+        let mut file = serde_json::to_value(scenario).map_err(|error| vec![error.to_string()])?;
         let mut paths: Vec<String> = Parameter::all(scenario).into_iter().map(Parameter::path).collect();
         paths.sort();
         let (mut axes, mut faults) = (Vec::<Axis>::new(), Vec::new());
@@ -155,6 +157,12 @@ impl Sweep {
                 }
                 Ok(axis) => axes.push(axis),
             }
+        }
+        // No critical speed depends on the path. One that is not swept must not forbid a position, such as that of its end.
+        if !axes.iter().any(|axis| axis.path.starts_with(OF_PATH))
+            && let Some(fields) = file.as_object_mut()
+        {
+            fields.remove("path");
         }
         let count = axes.iter().try_fold(1_usize, |count, axis| count.checked_mul(axis.count));
         match count.filter(|count| *count <= MOST_ROWS) {
@@ -195,6 +203,8 @@ impl Sweep {
                 });
             }
         };
+        let with_path = self.file.get("path").is_some();
+        let coupled = |axis: &Axis| coupled(axis, with_path);
         let mut groups: Vec<Vec<&Axis>> = Vec::new();
         for axis in &self.axes {
             let together =
@@ -243,12 +253,13 @@ fn values(axes: &[&Axis], mut index: usize) -> Vec<f64> {
 }
 
 /// Which other numbers this one can be at fault together with: anchors that coincide, a direction of zero length,
-/// products beyond the range of numbers.
-fn coupled(axis: &Axis) -> Option<&'static str> {
+/// products beyond the range of numbers; and `with_path`, points that coincide, a move that takes too long.
+fn coupled(axis: &Axis, with_path: bool) -> Option<&'static str> {
     match axis.path.as_str() {
         path if path.contains(".anchor[") => Some("anchors"),
         path if path.contains("].cable.") => Some("products"),
         path if path.starts_with("motion.direction") => Some("direction"),
+        path if path.starts_with(OF_PATH) || (with_path && path.starts_with("motion.position")) => Some("path"),
         "cable.youngs_modulus" | "cable.area" | "cable.mass_per_length" | "platform.mass" | "gravity" => {
             Some("products")
         }

@@ -28,6 +28,8 @@ impl Variants {
             }
             parameters.push(parameter);
         }
+        // No critical speed depends on the path, which must not forbid a position, such as that of its end.
+        let scenario = Scenario { path: None, ..scenario };
         Ok(Self { scenario, numbers: parameters })
     }
 
@@ -44,7 +46,7 @@ impl Variants {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::presets;
+    use crate::scenario::{Path, presets};
 
     #[test]
     fn values_are_put_in_by_path_and_paths_are_checked() {
@@ -57,6 +59,13 @@ mod tests {
         let (robot, motion) = two.at(&[3e8, 0.0]).expect("physical");
         assert!((robot.material.youngs_modulus - 3e8).abs() < 1e-3 && (motion.direction().x - 1.0).abs() < 1e-15);
         assert!(two.at(&[-1.0, 0.0]).is_none(), "a negative modulus");
+        let path = Path::new(vec![[6.0, 0.0]], 5.0);
+        let moving = Scenario { path: Some(path), ..presets::PRESETS[0].scenario() };
+        let along = Variants::new(moving, &[varied("motion.position[0]")]).expect("a number");
+        assert!(
+            along.at(&[6.0]).is_some_and(|(_, motion)| (motion.position().x - 6.0).abs() < 1e-15),
+            "the end of the path"
+        );
         assert!(variants(&["cable.colour"]).is_err_and(|reason| reason.starts_with("cable.colour: ")));
         assert!(variants(&["gravity", "gravity"]).is_err_and(|reason| reason.contains("twice")));
     }

@@ -2,8 +2,12 @@
 
 use crate::robot::Vec2;
 
-/// Parts of a spline's segment in each of which Gauss's rule finds the arc length.
-const PARTS: usize = 16;
+/// Parts of a spline's segment in which Gauss's rule begins to find the arc length.
+const PARTS: usize = 8;
+/// A part is halved at most so many times: where the curve nearly stops or turns back, its speed is as good as broken.
+const HALVINGS: usize = 24;
+/// Halvings of all parts together, for each part: no spline costs more, whatever rounding does to it.
+const HALVINGS_PER_PART: usize = 64;
 /// Nodes and weights of Gauss's rule with eight points over −1 … 1, the positive nodes.
 const GAUSS: [[f64; 2]; 4] = [
     [0.183_434_642_495_649_8, 0.362_683_783_378_362],
@@ -44,17 +48,37 @@ impl Spline {
         }
         let seconds = seconds(&knots, &points, ends);
         let mut spline = Self { knots, points, seconds, arcs: Vec::new() };
-        let mut arcs = vec![[spline.start(), 0.0]];
-        for pair in spline.knots.windows(2) {
-            for part in 1..=PARTS {
-                let [from, length] = arcs[arcs.len() - 1];
-                let to =
-                    if part == PARTS { pair[1] } else { pair[0] + (pair[1] - pair[0]) * part as f64 / PARTS as f64 };
-                arcs.push([to, length + spline.length_between(from, to)]);
+        spline.arcs = spline.measured();
+        Some(spline)
+    }
+
+    /// Parameters in rising order with their arc length, so close that Gauss's rule is exact to rounding between them: a part
+    /// is halved until its two halves are together as long as the whole.
+    fn measured(&self) -> Vec<[f64; 2]> {
+        let mut parts = Vec::new();
+        for pair in self.knots.windows(2) {
+            let place = |part: usize| pair[0] + (pair[1] - pair[0]) * part as f64 / PARTS as f64;
+            for part in 0..PARTS {
+                let (from, to) = (place(part), if part + 1 == PARTS { pair[1] } else { place(part + 1) });
+                parts.push((from, to, self.length_between(from, to), HALVINGS));
             }
         }
-        spline.arcs = arcs;
-        Some(spline)
+        let mut left = HALVINGS_PER_PART * parts.len();
+        let rounding = f64::EPSILON * parts.iter().map(|part| part.2).sum::<f64>();
+        parts.reverse();
+        let (mut arcs, mut length) = (vec![[self.start(), 0.0]], 0.0);
+        while let Some((from, to, whole, halvings)) = parts.pop() {
+            let middle = 0.5 * (from + to);
+            let [first, second] = [self.length_between(from, middle), self.length_between(middle, to)];
+            if halvings > 0 && left > 0 && (first + second - whole).abs() > rounding {
+                left -= 1;
+                parts.extend([(middle, to, second, halvings - 1), (from, middle, first, halvings - 1)]);
+            } else {
+                arcs.extend([[middle, length + first], [to, length + first + second]]);
+                length += first + second;
+            }
+        }
+        arcs
     }
 
     /// The first knot.
@@ -112,7 +136,8 @@ impl Spline {
         let after = self.arcs.partition_point(|[_, length]| *length <= s).clamp(1, self.arcs.len() - 1);
         let ([mut low, before], [mut high, _]) = (self.arcs[after - 1], self.arcs[after]);
         let from = low;
-        let mut u = low + (high - low) * ((s - before) / (self.arcs[after][1] - before)).clamp(0.0, 1.0);
+        let part = self.arcs[after][1] - before;
+        let mut u = if part > 0.0 { low + (high - low) * ((s - before) / part).clamp(0.0, 1.0) } else { high };
         let rounding = f64::EPSILON * (self.end() - self.start());
         for _ in 0..NEWTON_STEPS {
             let excess = before + self.length_between(from, u) - s;

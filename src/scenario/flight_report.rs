@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::flight::{self, Flight, FlightError, FlightOptions, Gain, Sample, Slack};
 use crate::robot::{Robot, Trajectory};
 use crate::scenario::report::DEFAULT_MAX_SPEED;
-use crate::steps::step;
+use crate::stability::steps::step;
 use crate::study::{LeastSpeed, PathSummary, WaveRatio};
 
 /// The name and version of the format.

@@ -174,6 +174,11 @@ impl Scenario {
         }
     }
 
+    /// The trajectory of its path; `None` where it has none.
+    pub fn trajectory(&self) -> Option<robot::Trajectory> {
+        self.path.as_ref()?.trajectory(self.motion.position)
+    }
+
     /// The version of the format in which it is written: [`SCHEMA_2`] where a cable has something of its own or there is a
     /// path, else [`SCHEMA`].
     pub fn schema(&self) -> &'static str {

@@ -9,7 +9,7 @@ use crate::robot::{Robot, Trajectory};
 use crate::scenario::flight_report::csv_header;
 use crate::scenario::report::DEFAULT_MAX_SPEED;
 use crate::stability::Outcome;
-use crate::steps::step;
+use crate::stability::steps::step;
 use crate::study::LocalProblem;
 
 /// The name and version of the format.

@@ -78,6 +78,11 @@ impl Parameter {
         all.filter(|parameter| parameter.is_in(scenario)).collect()
     }
 
+    /// Whether it is a number of the path, on which no critical speed depends.
+    pub fn is_of_path(self) -> bool {
+        matches!(self, Self::PathSpeed | Self::PathAcceleration | Self::PathJerk | Self::PathHold | Self::PathPoint(..))
+    }
+
     /// That number of one cable (0-based) alone, for those that cables can have of their own.
     pub fn own(self, cable: usize) -> Option<Self> {
         Some(match self {

@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use crate::robot::{Allowed, Fault, Profile, Trajectory, Vec2};
-use crate::scenario::Scenario;
 use crate::scenario::reader::Value;
 
 /// The most points of a path.
@@ -180,18 +179,11 @@ impl Path {
     }
 }
 
-impl Scenario {
-    /// The trajectory of its path; `None` where it has none.
-    pub fn trajectory(&self) -> Option<Trajectory> {
-        self.path.as_ref()?.trajectory(self.motion.position)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::robot::Faults;
-    use crate::scenario::presets;
+    use crate::scenario::{Scenario, presets};
 
     fn with(path: &str) -> Result<Scenario, Faults> {
         let text = presets::PRESETS[0].scenario().to_json();

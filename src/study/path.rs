@@ -4,8 +4,8 @@
 use crate::flight::FlightError;
 use crate::mechanics::{self, Failure};
 use crate::robot::{PathPoint, Robot, Side, Trajectory};
+use crate::stability::steps::step;
 use crate::stability::{CriticalSearch, Outcome};
-use crate::steps::step;
 use crate::study::LocalProblem;
 
 /// Parts of a path at whose ends the wave limit is looked at first: it takes statics alone.
@@ -220,7 +220,7 @@ async fn largest(
 mod tests {
     use super::*;
     use crate::robot::{Profile, Vec2, paper};
-    use crate::steps::finish;
+    use crate::stability::steps::finish;
 
     fn across(profile: Profile) -> Trajectory {
         Trajectory::straight(Vec2::new(-6.0, 0.0), &[Vec2::new(6.0, 0.0)], profile).expect("a path")

@@ -1,10 +1,6 @@
 // A path is added and flown; what the flight finds is told; limits give the fastest move; a link carries the path.
-//
 import assert from "node:assert/strict";
-import { browserTest, choose, find, gone, isThere, layout, matching, press, reveal, started, type, valueOf } from "./harness.mjs";
-
-/** Why these are not run: until the page has the group "Path" and the movement "Fly". Then this is to be `false`. */
-const WAITS = process.env.FLIGHTS ? false : "waits for a page that flies (FLIGHTS=1 runs it all the same)";
+import { browserTest, choose, find, gone, layout, matching, press, reveal, started, type, valueOf } from "./harness.mjs";
 
 const scenario = (page) => page.evaluate(() => window.tautline.scenario());
 
@@ -21,8 +17,7 @@ async function across(page, speed) {
 
 /** Chooses what the transport moves, or presses the one button "Fly". */
 async function fly(page) {
-    if (await isThere(page, "Fly", "button")) await press(page, "Fly", "button");
-    else await choose(page, "What moves", "Fly");
+    await press(page, "Fly", /^(button|radio)$/);
     return find(page, "Time of the flight", "slider", { timeout: 60_000 });
 }
 
@@ -32,7 +27,7 @@ const flightTest = (name, body) => browserTest(name, async ({ open, ...rest }) =
     await started(page);
     await reveal(page, "Path", "button");
     await body({ page, open, ...rest });
-}, { timeout: 180_000, skip: WAITS });
+}, { timeout: 180_000 });
 
 const telling = async (page) => (await layout(page)).map(({ label }) => label).join("\n");
 
@@ -67,7 +62,8 @@ flightTest("a flight at 8 m/s tells which cable goes slack, a slow one that none
 
 flightTest("the fastest move within limits is taken over, and undone", async ({ page }) => {
     const { speed } = await across(page, 5);
-    await choose(page, "More", /^Fastest allowed/);
+    await press(page, "Path", "button", { within: "Controls" });
+    await press(page, "Fastest allowed", "button");
     await press(page, "Use it", "button", { timeout: 60_000 });
     await page.waitForFunction((speed) => window.tautline.scenario().path.speed !== speed, speed);
     await page.keyboard.press("Escape");
@@ -79,7 +75,7 @@ flightTest("the fastest move within limits is taken over, and undone", async ({ 
 flightTest("a link carries the path, and the peak speed is typed", async ({ page, open }) => {
     await across(page, 5);
     await press(page, "Path", "button", { within: "Controls" });
-    await type(page, "Peak speed", "3.25");
+    await type(page, "Peak speed v", "3.25");
     await page.waitForFunction(() => window.tautline.scenario().path.speed === 3.25);
     await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
     await choose(page, "Share", "Copy link");

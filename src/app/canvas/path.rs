@@ -60,11 +60,20 @@ impl PathOnCanvas {
         let (painter, tokens) = (pen.painter, pen.tokens);
         let line: Vec<Pos2> = self.line.iter().map(|point| point.1).collect();
         painter.line(line.clone(), Stroke::new(LINE, tokens.track));
-        for ends in margins.windows(2) {
-            let ratio = ends[0].1.max(ends[1].1);
-            let Some((from, to)) = self.at(ends[0].0).zip(self.at(ends[1].0)) else { continue };
-            let colour = if ratio > 1.0 { tokens.critical } else { theme::on_map(ratio) };
-            painter.line_segment([from, to], Stroke::new(LINE, colour));
+        let mut from: Option<Pos2> = None;
+        for (i, &(s, ratio)) in margins.iter().enumerate() {
+            let Some(to) = self.at(s) else { continue };
+            // A piece shorter than the line is wide would show its edges.
+            if let Some(from) = from
+                && from.distance(to) < LINE
+                && i + 1 < margins.len()
+            {
+                continue;
+            }
+            if let Some(from) = from.replace(to) {
+                let colour = if ratio > 1.0 { tokens.critical } else { theme::on_map(ratio) };
+                painter.line_segment([from, to], Stroke::new(LINE, colour));
+            }
         }
         for [from, to] in self.marks() {
             painter.line_segment([from, to], Stroke::new(1.25, tokens.text));

@@ -1,6 +1,6 @@
 //! Tables of what is known along a path: stations, gains, flights.
 
-use super::{Table, VERDICT, cell, verdict};
+use super::table::{Table, VERDICT, cell, verdict};
 use crate::app::facts::Facts;
 use crate::app::series::{self, Gains, Stations, Way};
 use crate::app::studies::StudyResults;

@@ -39,7 +39,7 @@ pub fn varied(scenario: &Scenario, view: &WhatIfView) -> Vec<(Scenario, Study)> 
 /// these numbers does. Of a range without a physical value it is the scenario as it is.
 fn independent(scenario: &Scenario, numbers: &[(Parameter, Range)]) -> Scenario {
     let Ok((_, motion)) = scenario.to_robot() else { return scenario.clone() };
-    let mut fixed = Scenario { name: None, ..scenario.clone() };
+    let mut fixed = Scenario { name: None, path: None, ..scenario.clone() };
     // No critical speed depends on the present one, or on the length of the direction.
     fixed.motion.direction = motion.direction().into();
     fixed.motion.speed = 0.0;
@@ -62,7 +62,7 @@ fn independent(scenario: &Scenario, numbers: &[(Parameter, Range)]) -> Scenario 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::presets;
+    use crate::scenario::{Path, presets};
 
     fn view(numbers: &[(Parameter, [f64; 2])]) -> WhatIfView {
         let mut view = WhatIfView::default();
@@ -88,11 +88,12 @@ mod tests {
         };
         let as_it_is = studies(|_| {});
         assert_eq!(as_it_is.len(), 2);
-        let same: [fn(&mut Scenario); 4] = [
+        let same: [fn(&mut Scenario); 5] = [
             |s| s.platform.mass = 3.5,
             |s| s.motion.speed = 9.0,
             |s| s.motion.direction = [4.0, 0.0],
             |s| s.name = Some("Another".into()),
+            |s| s.path = Some(Path::new(vec![[6.0, 0.0]], 5.0)),
         ];
         for edit in same {
             assert_eq!(studies(edit), as_it_is);

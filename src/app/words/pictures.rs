@@ -183,7 +183,7 @@ fn wave_ratio() -> Vec<PicturePart> {
         thin([[LEFT, bottom], [RIGHT, bottom]]),
         PicturePart::Arrow([[across(0.5), bottom], [across(0.5), limit(0.5)]], Ink::Weak),
         PicturePart::Text([LEFT + 38.0, 14.0], MIDDLE, "wave limit", Ink::Waves),
-        PicturePart::Text([across(0.5), 84.0], MIDDLE, "speed along the path", Ink::Accent),
+        PicturePart::Text([across(0.5), 82.0], MIDDLE, "speed along the path", Ink::Accent),
     ]
 }
 

@@ -34,7 +34,7 @@ pub fn meaning(facts: Facts<'_>) -> String {
         "The winches reel as if platform and cables moved without any swing. This is how far off the platform really is: \
          its inertia, and that of the cables, set it swinging. Along x with a whole line, along y with a dashed one; after \
          the stop it swings freely. After a kick, the dotted lines are what frozen time predicts: the first swing times \
-         exp(∫ max Re λ dt). Vibrations often stay far within these lines, since frozen time takes the energy that reeling \
+         exp of the sum of max Re λ over time. Vibrations often stay far within these lines, since frozen time takes the energy that reeling \
          in feeds to a cable for growth.{finding}"
     )
 }

@@ -24,7 +24,7 @@ pub fn meaning(facts: Facts<'_>) -> String {
     signed(&format!(
         "The same path with the same profile, passed at several peak speeds. The whole line is the gain: how many times \
          larger any small vibration can be after the move than before it. The dashed line is what frozen time says, \
-         exp(∫ max Re λ dt). The two can be far apart: for the paper's robot without damping, frozen time calls every speed \
+         exp of the sum of max Re λ over time. The two can be far apart: for the paper's robot without damping, frozen time calls every speed \
          unstable, yet at a peak of 2 m/s nothing ends more than 0.1 % larger. The gain is a number and no verdict. Right of \
          the dotted line a winch reels faster than waves run: growth has no bound there, and figures depend on the \
          mesh.{finding} Click to set the peak speed."

@@ -273,6 +273,6 @@ impl<'a> Drawing<'a> {
             let waves = stations.all.iter().filter_map(|station| Some(station.wave_limit?.speed));
             frozen.chain(waves).fold(0.0, f64::max)
         });
-        1.14 * flown.max(limits.min(3.0 * flown)).max(1e-3)
+        1.14 * flown.max(limits.min(5.0 * flown)).max(1e-3)
     }
 }

@@ -86,7 +86,8 @@ pub fn name(field: &Field) -> String {
 /// All numbers that a critical speed may depend on, in the order of the file.
 pub fn all(scenario: &Scenario) -> Vec<Parameter> {
     let all = Parameter::all(scenario).into_iter().chain([Parameter::Direction]);
-    all.filter(|number| !matches!(number, Parameter::Speed | Parameter::DirectionComponent(_))).collect()
+    let without = |number: &Parameter| matches!(number, Parameter::Speed | Parameter::DirectionComponent(_));
+    all.filter(|number| !without(number) && !number.is_of_path()).collect()
 }
 
 /// The group of a number, by its path: new numbers find theirs as well.
@@ -222,11 +223,14 @@ fn ends(view: &mut WhatIfView, parameter: Parameter, ui: &mut Ui, facts: Facts<'
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::presets;
+    use crate::scenario::{Path, presets};
 
     #[test]
     fn every_number_has_a_group_a_name_of_its_own_and_a_range_around_it() {
-        for scenario in presets::PRESETS.iter().map(presets::Preset::scenario) {
+        for mut scenario in presets::PRESETS.iter().map(presets::Preset::scenario) {
+            let without = all(&scenario);
+            scenario.path = Some(Path::new(vec![[0.1, 0.2]], 1.0));
+            assert_eq!(all(&scenario), without, "no critical speed depends on the path");
             let mut names = Vec::new();
             for number in all(&scenario) {
                 let field = field(number, &scenario, Settings::default());
