@@ -84,7 +84,8 @@ impl Path {
         }
     }
 
-    /// The trajectory from `start` (m); `None` where there is none, see [`Self::faults`].
+    /// The trajectory from `start` (m); `None` where there is none, since points coincide or a spline would
+    /// turn back at one of them.
     pub fn trajectory(&self, start: [f64; 2]) -> Option<Trajectory> {
         let points: Vec<Vec2> = self.points.iter().copied().map(Vec2::from).collect();
         match self.corners {
